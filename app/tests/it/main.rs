@@ -1,0 +1,8 @@
+//! The modeler as a specification: command lines, pictures, panels.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::allow_attributes,
+    reason = "a test that panics has failed"
+)]

@@ -1,0 +1,103 @@
+//! Running programs: what every engine takes and gives.
+//!
+//! [`run`] does one step (or `start`) on a copy of a mesh and gives back the new mesh, not yet closed
+//! ([`crate::mesh::close`]). If it fails the copy is dropped, so a failed step leaves the mesh as it was.
+
+mod interpret;
+
+use crate::diagnostic::Diagnostic;
+use crate::ir::{FunctionId, GlobalId, Program};
+use crate::mesh::{Mesh, Value};
+use crate::stop::{Stop, Stopped};
+
+/// What a run may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Vertices in the universe, those that `start` or import made included.
+    pub max_vertices: usize,
+    /// Bytes of rings, columns, old values and sets.
+    pub max_bytes: usize,
+    /// Calls open at once.
+    pub max_call_depth: u32,
+}
+
+impl Default for Limits {
+    /// 50 million vertices, 16 GiB, 10,000 calls.
+    fn default() -> Self {
+        Self { max_vertices: 50_000_000, max_bytes: 16 << 30, max_call_depth: 10_000 }
+    }
+}
+
+/// Everything a run depends on beside program, rule and mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// Values for `param`s in place of their defaults. Those of another type are converted as an assignment would;
+    /// callers check ranges ([`crate::ir::Param::range`]).
+    pub params: Vec<(GlobalId, Value)>,
+    /// Seeds `random()`, whose stream is a function of this and the generation.
+    pub seed: u64,
+    /// Budgets.
+    pub limits: Limits,
+    /// Polled at every loop round and call.
+    pub stop: Stop,
+}
+
+/// Where `print` goes.
+pub trait Output {
+    /// Takes one line, without its end.
+    ///
+    /// # Errors
+    /// When nobody reads any more (a closed pipe); the run then ends.
+    fn print(&mut self, line: &str) -> Result<(), OutputClosed>;
+}
+
+/// Collects the lines.
+impl Output for Vec<String> {
+    fn print(&mut self, line: &str) -> Result<(), OutputClosed> {
+        self.push(line.to_owned());
+        Ok(())
+    }
+}
+
+/// Nobody reads what is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the output was closed")]
+pub struct OutputClosed;
+
+/// A run that did not end in a mesh.
+#[derive(Debug, Clone)]
+pub struct Failure {
+    /// What kind of end it was.
+    pub kind: FailureKind,
+    /// What to tell the user, located.
+    pub diagnostic: Box<Diagnostic>,
+}
+
+/// Kinds of failure, which exit codes tell apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FailureKind {
+    /// The program did something that has no meaning.
+    Program,
+    /// Vertices, memory or call depth ran out.
+    Budget,
+    /// Stopped from outside.
+    Stopped(Stopped),
+    /// The output was closed.
+    OutputClosed,
+}
+
+/// Runs `function` (a rule or `start`) on a copy of `mesh` as generation `generation`: 0 for `start`, n for the n-th
+/// step. The program's properties are declared on the mesh first. The result is not closed.
+///
+/// # Errors
+/// See [`FailureKind`]; `mesh` is as it was in any case.
+pub fn run(
+    program: &Program,
+    function: FunctionId,
+    mesh: &Mesh,
+    generation: u64,
+    settings: &Settings,
+    output: &mut dyn Output,
+) -> Result<Mesh, Failure> {
+    interpret::run(program, function, mesh, generation, settings, output)
+}

@@ -1,0 +1,542 @@
+//! The checked program. This documentation is the semantics; every engine follows it to the bit.
+//!
+//! A [`Program`] comes only from [`crate::check`] without an error, and no engine panics on one, whatever mesh it
+//! meets. Names are resolved, conversions explicit, every expression has one type.
+//!
+//! **Order.** Left to right; operands before the operation; in an assignment first the operands of the target, then the
+//! right side, then (for `op=`) the old value is read, then the store.
+//!
+//! **Numbers.** `int` is `i64`, overflow and division by zero are errors. `double` is IEEE 754 binary64, no fused
+//! operations; functions come from one library on every machine ([`crate::builtins`]). `double` to `int` truncates; NaN
+//! and what does not fit are errors. `vec` operations work on x, y, z in that order; `dot` is `(x·x + y·y) + z·z`.
+//!
+//! **Null.** `null` compares with vertices (it comes first) and converts to `bool`. As the vertex whose ring, position
+//! or property is meant it is an error; as an operand that a ring is searched for it is an error unless *written*
+//! ([`Item::Gap`]); as something put into a ring it is a gap.
+//!
+//! **Sets and loops.** `forall` walks a set or ring as it stood when the loop began. A set iterates in order of
+//! addition.
+//!
+//! **Old values.** [`StmtKind::Synchronize`] gives every vertex of the set a copy of its ring, position, vertex
+//! properties and edge values. The copy belongs to the vertex: the last `synchronize` that covered it wins. None
+//! outlives the step. Reading an old value that is not there is an error.
+
+use std::sync::Arc;
+
+use crate::builtins::Builtin;
+use crate::mesh::Value;
+use crate::source::{Sources, Span};
+pub use crate::syntax::tree::{Side, Step, StepPosition};
+
+/// A checked program.
+#[derive(Debug, Clone)]
+pub struct Program {
+    /// The texts it was made of.
+    pub sources: Arc<Sources>,
+    /// All functions; [`FunctionId`] indexes.
+    pub functions: Vec<Function>,
+    /// Steps of the modeler: each `void f(mesh& S)` of the program's own file that is neither `start` nor `static`, in
+    /// the order of the text. The block `step { … }` is one named `step`.
+    pub rules: Vec<FunctionId>,
+    /// `void start(mesh& S)` or the block `start { … }`.
+    pub start: Option<FunctionId>,
+    /// Constants and parameters in the order in which they are computed; [`GlobalId`] indexes.
+    pub globals: Vec<Global>,
+    /// `vertex { … }`
+    pub vertex_properties: Vec<PropertyDeclaration>,
+    /// `edge { … }`
+    pub edge_properties: Vec<PropertyDeclaration>,
+    /// `mesh { … }`
+    pub mesh_properties: Vec<PropertyDeclaration>,
+}
+
+impl Program {
+    /// The rule a modeler steps when none is named: `step`, else the last one.
+    #[must_use]
+    pub fn default_rule(&self) -> Option<FunctionId> {
+        self.rules
+            .iter()
+            .copied()
+            .find(|&r| self.function(r).is_some_and(|f| f.name == "step"))
+            .or(self.rules.last().copied())
+    }
+
+    /// The rule of a name.
+    #[must_use]
+    pub fn rule(&self, name: &str) -> Option<FunctionId> {
+        self.rules.iter().copied().find(|&r| self.function(r).is_some_and(|f| f.name == name))
+    }
+
+    /// The function behind a handle.
+    #[must_use]
+    pub fn function(&self, id: FunctionId) -> Option<&Function> {
+        self.functions.get(id.0 as usize)
+    }
+
+    /// The parameters, in the order of the text.
+    pub fn params(&self) -> impl Iterator<Item = (GlobalId, &Global, &Param)> {
+        self.globals.iter().enumerate().filter_map(|(i, g)| Some((GlobalId(i as u32), g, g.param.as_ref()?)))
+    }
+}
+
+/// Index into [`Program::functions`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct FunctionId(pub u32);
+
+/// Index into [`Program::globals`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct GlobalId(pub u32);
+
+/// Index into [`Function::locals`]; parameters come first, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct LocalId(pub u32);
+
+/// The type of an expression or variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// No value: calls of `void` functions.
+    Void,
+    /// A value of a type that properties can have too.
+    Value(crate::mesh::Type),
+    /// A vertex set with mesh properties.
+    Mesh,
+}
+
+/// A constant or a parameter.
+#[derive(Debug, Clone)]
+pub struct Global {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: crate::mesh::Type,
+    /// Computed once before each start and each step, in order; uses only globals before it and no mesh.
+    pub init: Expr,
+    /// For `param`: the value given from outside, if any, stands in for `init`.
+    pub param: Option<Param>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// What a modeler needs to know of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Param {
+    /// The default, of the parameter's type.
+    pub default: Value,
+    /// Range of the slider, both of the parameter's type (`int` or `double`), low ≤ high. Values given from outside
+    /// must lie in it.
+    pub range: Option<(Value, Value)>,
+}
+
+/// A property that the program declares.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PropertyDeclaration {
+    /// What stands after `$`.
+    pub name: String,
+    /// What new elements get; its type is the property's.
+    pub default: Value,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A function.
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// What it returns.
+    pub returns: Type,
+    /// How each parameter is passed; parameter `i` is local `i`.
+    pub parameters: Vec<Passing>,
+    /// All variables, parameters first.
+    pub locals: Vec<Local>,
+    /// Its statements. A function that returns a value returns on every path.
+    pub body: Vec<Stmt>,
+    /// Where its name stands.
+    pub span: Span,
+}
+
+/// How an argument is passed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Passing {
+    /// A copy. A copied mesh has its own members and mesh properties.
+    Value,
+    /// The caller's variable itself.
+    Reference,
+}
+
+/// A variable.
+#[derive(Debug, Clone)]
+pub struct Local {
+    /// Its name.
+    pub name: String,
+    /// Its type, not `void`.
+    pub ty: Type,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A statement.
+#[derive(Debug, Clone)]
+pub struct Stmt {
+    /// Which.
+    pub kind: StmtKind,
+    /// Where.
+    pub span: Span,
+}
+
+/// The statements.
+#[derive(Debug, Clone)]
+pub enum StmtKind {
+    /// Gives a variable its first value, anew each time it is reached: `init`, or false, 0, the origin, an empty set
+    /// with mesh properties at their defaults. `vertex v;` arrives with [`ExprKind::Create`] as its `init`, a vertex
+    /// variable without one is null.
+    Declare {
+        /// The variable.
+        local: LocalId,
+        /// Of the variable's type. A mesh takes over the members only.
+        init: Option<Expr>,
+    },
+    /// Computes and forgets.
+    Expr(Expr),
+    /// A block, an empty statement or several declarators.
+    Block(Vec<Stmt>),
+    /// `if`
+    If {
+        /// Of type bool.
+        condition: Expr,
+        /// If it holds.
+        then: Vec<Stmt>,
+        /// If not.
+        otherwise: Vec<Stmt>,
+    },
+    /// `while` and `for`; a `continue` in the body goes on with `update`.
+    Loop {
+        /// Of type bool; `None` is true.
+        condition: Option<Expr>,
+        /// Each time round.
+        body: Vec<Stmt>,
+        /// After the body.
+        update: Vec<Expr>,
+        /// `do … while`: the first round asks nothing.
+        body_first: bool,
+    },
+    /// `forall v in S`, over the members as they stand now.
+    ForallSet {
+        /// The loop's variable, of type vertex.
+        local: LocalId,
+        /// Of type mesh.
+        set: Expr,
+        /// Each time round.
+        body: Vec<Stmt>,
+    },
+    /// ``forall q in p`` and ``forall q in `p``, over the neighbours, gaps left out, as they stand now.
+    ForallRing {
+        /// The loop's variable, of type vertex.
+        local: LocalId,
+        /// Whose.
+        ring: Ring,
+        /// Each time round.
+        body: Vec<Stmt>,
+    },
+    /// Leaves the innermost loop.
+    Break,
+    /// Goes on with the innermost loop's next round.
+    Continue,
+    /// Leaves the function with its value.
+    Return(Option<Expr>),
+    /// `make {…} nb_of v`. First the items, then `v`.
+    Make {
+        /// What the ring shall hold.
+        items: Vec<Item>,
+        /// Whose ring.
+        of: Expr,
+    },
+    /// `erase x from v`. No effect if x is not there.
+    Erase {
+        /// A computed null is an error.
+        item: Item,
+        /// Whose ring.
+        from: Expr,
+    },
+    /// `replace a with x in v`. No effect if a is not there or x = a.
+    Replace {
+        /// A computed null is an error.
+        item: Item,
+        /// A computed null is a gap.
+        with: Item,
+        /// Whose ring.
+        ring: Expr,
+    },
+    /// `splice x after a in v`. No effect if a is not there.
+    Splice {
+        /// A computed null is a gap.
+        item: Item,
+        /// After or before.
+        side: Side,
+        /// A computed null is an error.
+        anchor: Item,
+        /// Whose ring.
+        ring: Expr,
+    },
+    /// `synchronize S`
+    Synchronize(Expr),
+    /// `add v to S`; adding a member again keeps its place, adding null is an error.
+    Add {
+        /// Which vertex.
+        vertex: Expr,
+        /// A variable of type mesh.
+        set: LocalId,
+    },
+    /// `remove v from S`; removing null is an error.
+    Remove {
+        /// Which vertex.
+        vertex: Expr,
+        /// A variable of type mesh.
+        set: LocalId,
+    },
+    /// `merge S with T`: adds T's members that S lacks, in T's order.
+    Merge {
+        /// A variable of type mesh.
+        set: LocalId,
+        /// Of type mesh.
+        other: Expr,
+    },
+    /// Writes the items one after the other, without spaces between, and ends the line.
+    Print(Vec<PrintItem>),
+}
+
+/// What `print` writes.
+#[derive(Debug, Clone)]
+pub enum PrintItem {
+    /// A string literal.
+    Text(String),
+    /// A value: `true`, `42`, the shortest decimal that reads back as the same double, `(x, y, z)`, `v7`, `null`; a
+    /// mesh prints as its members, `{v1, v2}`.
+    Value(Expr),
+}
+
+/// What is looked for in a ring or put there.
+#[derive(Debug, Clone)]
+pub enum Item {
+    /// The word `null` itself: the first gap, or a gap to put in.
+    Gap(Span),
+    /// Of type vertex.
+    Vertex(Expr),
+}
+
+/// A ring that is read: of the vertex as it is, or as it was at the last `synchronize`.
+#[derive(Debug, Clone)]
+pub struct Ring {
+    /// Of type vertex; null is an error.
+    pub vertex: Box<Expr>,
+    /// Whether the old ring is meant.
+    pub old: bool,
+}
+
+/// An expression.
+#[derive(Debug, Clone)]
+pub struct Expr {
+    /// Which.
+    pub kind: ExprKind,
+    /// The type of its value.
+    pub ty: Type,
+    /// Where.
+    pub span: Span,
+}
+
+/// The expressions.
+#[derive(Debug, Clone)]
+pub enum ExprKind {
+    /// A literal; `Value::Vertex(None)` is the word `null`.
+    Constant(Value),
+    /// A variable, of any type.
+    Local(LocalId),
+    /// A constant or parameter.
+    Global(GlobalId),
+    /// A property, a position, or one coordinate of a variable or property.
+    Load(Box<Place>),
+    /// Converts between value types.
+    Convert(Conversion, Box<Expr>),
+    /// One operand.
+    Unary(Unary, Box<Expr>),
+    /// Two operands, both computed.
+    Binary(Binary, Box<Expr>, Box<Expr>),
+    /// `a && b`: b only if a. Both bool.
+    And(Box<Expr>, Box<Expr>),
+    /// `a || b`: b only if not a. Both bool.
+    Or(Box<Expr>, Box<Expr>),
+    /// `condition ? then : otherwise`, the condition bool, the others of one type; one of them is computed.
+    Conditional(Box<Expr>, Box<Expr>, Box<Expr>),
+    /// A coordinate (0, 1, 2) of a vec that is no place.
+    Coordinate(Box<Expr>, u8),
+    /// Calls a function of the program.
+    Call(FunctionId, Vec<Argument>),
+    /// Calls a function of the language.
+    Builtin(Builtin, Vec<Expr>),
+    /// Stores a value in a place, `op` combines it with what was there: `place = place op value`. The result is what
+    /// was stored. `convert` is applied to the result of `op` before the store (`int i; i *= 1.5;` computes in double).
+    Assign {
+        /// Where to.
+        place: Box<Place>,
+        /// For `+=` and its like; the place's value is widened first by `widen`.
+        op: Option<Compound>,
+        /// The right side.
+        value: Box<Expr>,
+    },
+    /// `++` and `--` on a place of type int or double; the result is the value before or after.
+    Step(Box<Place>, Step, StepPosition),
+    /// `S = T`: S takes over T's members, its properties stay. Of type void.
+    AssignSet(LocalId, Box<Expr>),
+    /// `vertex v;`: a new vertex with an empty ring, at the origin, its properties at their defaults, in no set.
+    Create,
+    /// `any in v`: the start of the ring, null if the ring is empty.
+    Any(Ring),
+    /// `nextto x in v`: what follows counter-clockwise; null for a gap, or if x is not there.
+    Next(Box<Item>, Ring),
+    /// `prevto x in v`: what precedes; null for a gap, or if x is not there.
+    Previous(Box<Item>, Ring),
+    /// `is x in v`
+    IsInRing(Box<Item>, Ring),
+    /// `is v in S`; a null is in no set.
+    IsInSet(Box<Expr>, Box<Expr>),
+    /// `valence v`: neighbours without gaps, an int.
+    Valence(Ring),
+    /// `gaps v`, an int.
+    Gaps(Ring),
+}
+
+/// An argument of a call.
+#[derive(Debug, Clone)]
+pub enum Argument {
+    /// For [`Passing::Value`].
+    Value(Expr),
+    /// For [`Passing::Reference`]: a variable of the caller, of exactly the parameter's type.
+    Reference(LocalId),
+}
+
+/// `op` of `op=` with the conversions around it.
+#[derive(Debug, Clone)]
+pub struct Compound {
+    /// Applied to the place's value and the right side.
+    pub op: Binary,
+    /// Applied to the place's value first.
+    pub widen: Option<Conversion>,
+    /// Applied to the result before it is stored.
+    pub narrow: Option<Conversion>,
+}
+
+/// Something that can be read and stored to.
+#[derive(Debug, Clone)]
+pub enum Place {
+    /// A variable of a value type.
+    Local(LocalId),
+    /// `v$pos`. Only [`ExprKind::Load`] reads old ones.
+    Position {
+        /// Of type vertex; null is an error.
+        vertex: Expr,
+        /// Whether the old one is meant.
+        old: bool,
+    },
+    /// `v$name`
+    VertexProperty {
+        /// Index into [`Program::vertex_properties`].
+        property: u32,
+        /// Of type vertex; null is an error.
+        vertex: Expr,
+        /// Whether the old one is meant.
+        old: bool,
+    },
+    /// `(p|q)$name`: see [`crate::mesh::Mesh::edge_value`]; no edge there is an error.
+    EdgeProperty {
+        /// Index into [`Program::edge_properties`].
+        property: u32,
+        /// Both of type vertex; null is an error.
+        ends: [Expr; 2],
+        /// Whether the old one is meant.
+        old: bool,
+    },
+    /// `S$name`
+    MeshProperty {
+        /// Index into [`Program::mesh_properties`].
+        property: u32,
+        /// A variable of type mesh.
+        set: LocalId,
+    },
+    /// A coordinate (0, 1, 2) of a place of type vec. `base` is no `Coordinate`.
+    Coordinate(Box<Place>, u8),
+}
+
+/// Conversions between value types.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Conversion {
+    /// false is 0, true is 1.
+    BoolToInt,
+    /// 0.0 or 1.0
+    BoolToDouble,
+    /// The nearest double.
+    IntToDouble,
+    /// Truncates towards zero; NaN or out of range is an error.
+    DoubleToInt,
+    /// Not zero.
+    IntToBool,
+    /// Not zero; NaN is true.
+    DoubleToBool,
+    /// Not null.
+    VertexToBool,
+}
+
+/// One-operand operations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each is the operation of its name on the type of its name")]
+pub enum Unary {
+    NegateInt,
+    NegateDouble,
+    NegateVec,
+    Not,
+}
+
+/// Two-operand operations; comparisons give a bool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each is the operation of its name on the type of its name")]
+pub enum Binary {
+    AddInt,
+    SubtractInt,
+    MultiplyInt,
+    /// Truncates towards zero.
+    DivideInt,
+    /// The sign of the left operand.
+    RemainderInt,
+    AddDouble,
+    SubtractDouble,
+    MultiplyDouble,
+    DivideDouble,
+    AddVec,
+    SubtractVec,
+    /// vec · double; `double * vec` arrives as [`Binary::ScaleByDouble`].
+    MultiplyVec,
+    /// double · vec, operands in the order of the text.
+    ScaleByDouble,
+    /// vec / double, a division of each coordinate.
+    DivideVec,
+    CompareInt(Comparison),
+    /// As IEEE 754: NaN is unequal to everything and neither less nor greater.
+    CompareDouble(Comparison),
+    /// Order of creation, null first.
+    CompareVertex(Comparison),
+    /// `==` and `!=` only.
+    CompareBool(Comparison),
+    /// `==` and `!=` only: all three coordinates.
+    CompareVec(Comparison),
+}
+
+/// The six comparisons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each is the operator of its name")]
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Equal,
+    NotEqual,
+}

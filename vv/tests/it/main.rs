@@ -1,0 +1,8 @@
+//! The engine as a specification: text in, text out.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::allow_attributes,
+    reason = "a test that panics has failed"
+)]
