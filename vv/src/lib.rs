@@ -21,11 +21,13 @@ pub mod source;
 pub mod stop;
 pub mod syntax;
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
-use diagnostic::Diagnostic;
+use diagnostic::{Diagnostic, Severity};
 use ir::Program;
-use source::Sources;
+use source::{FileId, Sources};
+use syntax::tree::{Ast, Item};
 
 /// What became of a text.
 #[derive(Debug, Clone)]
@@ -47,18 +49,56 @@ pub struct Included {
     pub text: String,
 }
 
+/// Files may include each other this deep.
+const MAX_INCLUDE_DEPTH: u32 = 64;
+
 /// Parses and checks a program. `include` finds the text that `#include "path"` in the file `from` (a name it gave, or
-/// `name`) means, or says why not. A file included twice, or by itself, is read once.
-pub fn compile(
-    name: &str,
-    text: &str,
-    _include: &mut dyn FnMut(&str, &str) -> Result<Included, String>,
-) -> Compilation {
-    let mut sources = Sources::default();
-    let file = sources.add(name, text);
-    let (ast, mut diagnostics) = syntax::parse(file, text);
+/// `name`) means, as `include(from, path)`, or says why not. A file included twice, or by itself, is read once.
+pub fn compile(name: &str, text: &str, include: &mut dyn FnMut(&str, &str) -> Result<Included, String>) -> Compilation {
+    let mut loader =
+        Loader { sources: Sources::default(), names: HashSet::new(), files: Vec::new(), diagnostics: Vec::new() };
+    loader.load(name, text, include, 0);
+    let Loader { sources, files, mut diagnostics, .. } = loader;
     let sources = Arc::new(sources);
-    let (program, more) = check::check(Arc::clone(&sources), &[(file, ast)]);
+    let (program, more) = check::check(Arc::clone(&sources), &files);
     diagnostics.extend(more);
-    Compilation { sources, program: Some(Arc::new(program)), diagnostics }
+    diagnostics.sort_by_key(|d| d.span.map(|s| (s.file, s.start, s.end)));
+    let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
+    Compilation { sources, program: (!failed).then(|| Arc::new(program)), diagnostics }
+}
+
+/// Reads files, each after those that it includes.
+struct Loader {
+    sources: Sources,
+    names: HashSet<String>,
+    files: Vec<(FileId, Ast)>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Loader {
+    fn load(
+        &mut self,
+        name: &str,
+        text: &str,
+        include: &mut dyn FnMut(&str, &str) -> Result<Included, String>,
+        depth: u32,
+    ) {
+        self.names.insert(name.to_owned());
+        let file = self.sources.add(name, text);
+        let (ast, diagnostics) = syntax::parse(file, text);
+        self.diagnostics.extend(diagnostics);
+        for item in &ast.items {
+            let Item::Include { path, span } = item else { continue };
+            match include(name, path) {
+                Ok(included) if self.names.contains(&included.name) => {}
+                Ok(_) if depth >= MAX_INCLUDE_DEPTH => {
+                    let message = format!("files include each other deeper than {MAX_INCLUDE_DEPTH} levels");
+                    self.diagnostics.push(Diagnostic::error(*span, message));
+                }
+                Ok(included) => self.load(&included.name, &included.text, include, depth + 1),
+                Err(message) => self.diagnostics.push(Diagnostic::error(*span, message)),
+            }
+        }
+        self.files.push((file, ast));
+    }
 }

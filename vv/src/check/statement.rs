@@ -1,0 +1,441 @@
+//! Statements. Each tells whether the one after it can be reached.
+
+use crate::diagnostic::Diagnostic;
+use crate::ir::{Expr, ExprKind, Place, PrintItem, Stmt, StmtKind, Type};
+use crate::mesh::{Type as ValueType, Value};
+use crate::source::Span;
+use crate::syntax::tree::{self, ExprKind as Tree, StmtKind as TreeStmt};
+
+use super::Checker;
+use super::body::{NewLocal, Role};
+use super::expression::has_effect;
+use super::operator::{name as type_text, type_of};
+use super::place::bare;
+
+const VERTEX: Type = Type::Value(ValueType::Vertex);
+
+impl<'a> Checker<'a> {
+    /// Statements in a row; false if the end of the row cannot be reached.
+    pub(super) fn statements(&mut self, statements: &'a [tree::Stmt], out: &mut Vec<Stmt>) -> bool {
+        let mut reached = true;
+        let mut told = false;
+        for statement in statements {
+            if !reached && !told && !matches!(statement.kind, TreeStmt::Empty) {
+                told = true;
+                self.report(Diagnostic::warning(statement.span, "this is never reached"));
+            }
+            reached &= self.statement(statement, out);
+        }
+        reached
+    }
+
+    /// The body of a loop or a branch: its own scope, which `open` has opened if it declares a variable for it.
+    fn inner(&mut self, statement: &'a tree::Stmt) -> (Vec<Stmt>, bool) {
+        let mut out = Vec::new();
+        let reached = match &statement.kind {
+            TreeStmt::Block(block) => self.statements(&block.statements, &mut out),
+            _ => self.statement(statement, &mut out),
+        };
+        (out, reached)
+    }
+
+    fn branch(&mut self, statement: &'a tree::Stmt) -> (Vec<Stmt>, bool) {
+        self.open_scope();
+        let result = self.inner(statement);
+        self.close_scope();
+        result
+    }
+
+    fn statement(&mut self, s: &'a tree::Stmt, out: &mut Vec<Stmt>) -> bool {
+        self.deeper(s.span, |c| Some(c.statement_node(s, out))).unwrap_or(true)
+    }
+
+    fn statement_node(&mut self, s: &'a tree::Stmt, out: &mut Vec<Stmt>) -> bool {
+        let span = s.span;
+        let kind = match &s.kind {
+            TreeStmt::Empty => None,
+            TreeStmt::Block(block) => {
+                let mut inner = Vec::new();
+                self.open_scope();
+                let reached = self.statements(&block.statements, &mut inner);
+                self.close_scope();
+                out.push(Stmt { kind: StmtKind::Block(inner), span });
+                return reached;
+            }
+            TreeStmt::Declare(declaration) => {
+                self.declaration(declaration, out);
+                None
+            }
+            TreeStmt::Expr(e) => self.expression_statement(e),
+            TreeStmt::If { condition, then, otherwise } => {
+                let condition = self.condition(condition);
+                let (then, then_reached) = self.branch(then);
+                let (otherwise, otherwise_reached) =
+                    otherwise.as_ref().map_or_else(|| (Vec::new(), true), |o| self.branch(o));
+                if let Some(condition) = condition {
+                    out.push(Stmt { kind: StmtKind::If { condition, then, otherwise }, span });
+                }
+                return then_reached || otherwise_reached;
+            }
+            TreeStmt::While { condition, body } => {
+                let condition = self.condition(condition);
+                let body = self.loop_body(body);
+                return self.close_loop(Some(condition), Vec::new(), body, false, span, out);
+            }
+            TreeStmt::DoWhile { body, condition } => {
+                let body = self.loop_body(body);
+                let condition = self.condition(condition);
+                return self.close_loop(Some(condition), Vec::new(), body, true, span, out);
+            }
+            TreeStmt::For { init, condition, update, body } => {
+                return self.for_loop(init.as_deref(), condition.as_ref(), update, body, span, out);
+            }
+            TreeStmt::Forall { variable, over, body } => self.forall(variable, over, body),
+            TreeStmt::Break | TreeStmt::Continue => {
+                let is_break = matches!(s.kind, TreeStmt::Break);
+                if self.body.loops == 0 {
+                    let word = if is_break { "break" } else { "continue" };
+                    self.report(Diagnostic::error(span, format!("there is no loop around this `{word}`")));
+                    return true;
+                }
+                out.push(Stmt { kind: if is_break { StmtKind::Break } else { StmtKind::Continue }, span });
+                return false;
+            }
+            TreeStmt::Return(value) => {
+                if let Some(value) = self.return_value(value.as_ref(), span) {
+                    out.push(Stmt { kind: StmtKind::Return(value), span });
+                }
+                return false;
+            }
+            TreeStmt::Make { items, of } => {
+                let items: Vec<_> = items.iter().map(|item| self.item(item)).collect();
+                let of = self.vertex(of);
+                items.into_iter().collect::<Option<_>>().zip(of).map(|(items, of)| StmtKind::Make { items, of })
+            }
+            TreeStmt::Erase { item, from } => {
+                let (item, from) = (self.item(item), self.edited(from));
+                item.zip(from).map(|(item, from)| StmtKind::Erase { item, from })
+            }
+            TreeStmt::Replace { item, with, ring } => {
+                let (item, with, ring) = (self.item(item), self.item(with), self.edited(ring));
+                item.zip(with).zip(ring).map(|((item, with), ring)| StmtKind::Replace { item, with, ring })
+            }
+            TreeStmt::Splice { item, side, anchor, ring } => {
+                let (item, anchor, ring) = (self.item(item), self.item(anchor), self.edited(ring));
+                let parts = item.zip(anchor).zip(ring);
+                parts.map(|((item, anchor), ring)| StmtKind::Splice { item, side: *side, anchor, ring })
+            }
+            TreeStmt::Synchronize(set) => {
+                self.body.effects.synchronizes = true;
+                self.mesh(set).map(StmtKind::Synchronize)
+            }
+            TreeStmt::Add { vertex, set } => self.add(vertex, set),
+            TreeStmt::Remove { vertex, set } => {
+                let (vertex, set) = (self.vertex(vertex), self.set(set));
+                vertex.zip(set).map(|(vertex, set)| StmtKind::Remove { vertex, set })
+            }
+            TreeStmt::Merge { set, other } => {
+                let (set, other) = (self.set(set), self.merged(set, other));
+                set.zip(other).map(|(set, other)| StmtKind::Merge { set, other })
+            }
+            TreeStmt::Print(items) => {
+                let items: Vec<_> = items.iter().map(|item| self.print_item(item)).collect();
+                items.into_iter().collect::<Option<_>>().map(StmtKind::Print)
+            }
+        };
+        if let Some(kind) = kind {
+            out.push(Stmt { kind, span });
+        }
+        true
+    }
+
+    /// The vertex whose ring is changed.
+    fn edited(&mut self, e: &'a tree::Expr) -> Option<Expr> {
+        self.vertex(e)
+    }
+
+    fn add(&mut self, vertex: &'a tree::Expr, set: &'a tree::Expr) -> Option<StmtKind> {
+        if let Tree::Name(name) = &bare(vertex).kind
+            && let Some(id) = self.body.find(name)
+            && self.body.type_of(id) == Some(Type::Mesh)
+        {
+            self.body.mention(id);
+            let text = self.text(set.span);
+            return self.fail(
+                Diagnostic::error(vertex.span, format!("`{name}` is a mesh, and vertices are added"))
+                    .hint(format!("write `merge {text} with {name};`")),
+            );
+        }
+        let (vertex, set) = (self.vertex(vertex), self.set(set));
+        vertex.zip(set).map(|(vertex, set)| StmtKind::Add { vertex, set })
+    }
+
+    fn merged(&mut self, set: &'a tree::Expr, other: &'a tree::Expr) -> Option<Expr> {
+        let mesh = self.expression(other)?;
+        if mesh.ty == VERTEX {
+            let (text, set) = (self.text(other.span), self.text(set.span));
+            return self.fail(
+                Diagnostic::error(mesh.span, "this is a vertex, and meshes are merged")
+                    .hint(format!("write `add {text} to {set};`")),
+            );
+        }
+        if mesh.ty == Type::Mesh { Some(mesh) } else { self.mismatch(&mesh, Type::Mesh) }
+    }
+
+    fn print_item(&mut self, e: &'a tree::Expr) -> Option<PrintItem> {
+        if let Tree::Text(text) = &bare(e).kind {
+            return Some(PrintItem::Text(text.clone()));
+        }
+        let value = self.expression(e)?;
+        if value.ty == Type::Void {
+            return self.fail(Diagnostic::error(e.span, "this gives no value to print"));
+        }
+        Some(PrintItem::Value(value))
+    }
+
+    fn declaration(&mut self, declaration: &'a tree::Declaration, out: &mut Vec<Stmt>) {
+        let ty = Some(type_of(declaration.ty.kind)).filter(|&t| t != Type::Void);
+        if ty.is_none() {
+            self.report(Diagnostic::error(declaration.ty.span, "a variable cannot be `void`"));
+        }
+        for d in &declaration.declarators {
+            // The name is visible only after its first value.
+            let init = d.init.as_ref().map(|init| match ty {
+                Some(Type::Mesh) => self.mesh(init),
+                Some(Type::Value(ty)) => {
+                    let value = if ty == ValueType::Vertex { self.expression(init) } else { self.value(init) };
+                    value.and_then(|value| match value.ty {
+                        Type::Value(_) => self.implicitly(value, ty),
+                        _ => self.mismatch(&value, Type::Value(ty)),
+                    })
+                }
+                Some(Type::Void) | None => self.expression(init),
+            });
+            let new = NewLocal {
+                name: &d.name.text,
+                span: d.name.span,
+                ty,
+                role: Role::Local,
+                is_const: declaration.is_const,
+            };
+            let local = self.declare(new);
+            if declaration.is_const && init.is_none() {
+                self.report(Diagnostic::error(d.name.span, format!("the constant `{}` needs a value", d.name.text)));
+            }
+            let creates = init.is_none() && ty == Some(VERTEX);
+            if creates {
+                self.body.set_created(local);
+            }
+            let init = match init {
+                Some(None) => continue,
+                Some(Some(init)) => {
+                    if !has_effect(&init) {
+                        self.body.set_droppable(local);
+                    }
+                    Some(init)
+                }
+                None => {
+                    self.body.set_droppable(local);
+                    creates.then_some(Expr { kind: ExprKind::Create, ty: VERTEX, span: d.name.span })
+                }
+            };
+            let span = match &d.init {
+                Some(init) => d.name.span.to(init.span),
+                None => d.name.span,
+            };
+            out.push(Stmt { kind: StmtKind::Declare { local, init }, span });
+        }
+    }
+
+    fn expression_statement(&mut self, e: &'a tree::Expr) -> Option<StmtKind> {
+        let checked = self.expression(e)?;
+        if let ExprKind::Assign { place, op: None, .. } = &checked.kind
+            && let Place::Local(id) = **place
+            && self.body.is_created_and_first_mentioned(id)
+            && let Some(declared) = self.body.local(id).map(|l| l.span)
+        {
+            let name = self.body.name(id);
+            self.report(
+                Diagnostic::warning(e.span, format!("the vertex that `vertex {name};` created is lost here"))
+                    .label(declared, "created here")
+                    .fix(
+                        format!("`vertex {name} = null;` creates none, nor does declaring it with its value"),
+                        declared,
+                        format!("{name} = null"),
+                    ),
+            );
+        }
+        if !has_effect(&checked) {
+            let error = Diagnostic::warning(e.span, "this is computed, but has no effect");
+            let error = match &bare(e).kind {
+                Tree::Binary { op: tree::BinaryOp::Equal, left, .. } => {
+                    error.hint(format!("to store a value write `{} = …;`", self.text(left.span)))
+                }
+                _ => error,
+            };
+            self.report(error);
+        }
+        Some(StmtKind::Expr(checked))
+    }
+
+    /// `Some(None)` is a return without a value.
+    fn return_value(&mut self, value: Option<&'a tree::Expr>, span: Span) -> Option<Option<Expr>> {
+        let function = self.body.function?;
+        let signature = self.signatures.get(function.0 as usize)?;
+        let (name, returns, promised) = (signature.name, signature.returns, signature.return_span);
+        match (value, returns) {
+            (None, Type::Void) => Some(None),
+            (None, _) => self.fail(
+                Diagnostic::error(span, format!("`{name}` must return a `{}` here", type_text(returns)))
+                    .label(promised, "promised here"),
+            ),
+            (Some(value), Type::Void) => {
+                self.expression(value)?;
+                self.fail(
+                    Diagnostic::error(value.span, format!("`{name}` returns nothing"))
+                        .label(promised, "to return a value, name its type here instead of `void`"),
+                )
+            }
+            (Some(value), Type::Mesh) => self.mesh(value).map(Some),
+            (Some(value), Type::Value(ty)) => {
+                let value = self.expression(value)?;
+                match value.ty {
+                    Type::Value(_) => self.implicitly(value, ty).map(Some),
+                    Type::Mesh | Type::Void => self.mismatch(&value, returns),
+                }
+            }
+        }
+    }
+
+    fn loop_body(&mut self, body: &'a tree::Stmt) -> (Vec<Stmt>, bool) {
+        self.body.loops += 1;
+        let result = self.branch(body);
+        self.body.loops -= 1;
+        result
+    }
+
+    /// Gives out a loop; `condition` is `None` if there is none, `Some(None)` if it is faulty.
+    fn close_loop(
+        &mut self,
+        condition: Option<Option<Expr>>,
+        update: Vec<Expr>,
+        (body, reached): (Vec<Stmt>, bool),
+        body_first: bool,
+        span: Span,
+        out: &mut Vec<Stmt>,
+    ) -> bool {
+        let endless = match &condition {
+            None => true,
+            Some(None) => return true,
+            Some(Some(c)) => matches!(c.kind, ExprKind::Constant(Value::Bool(true))),
+        };
+        let leaves = leaves_loop(&body);
+        // `do { return x; } while (…)` never asks its condition.
+        let never_asks = body_first && !reached && !leaves.continues;
+        let falls_through = leaves.breaks || !(endless || never_asks);
+        out.push(Stmt { kind: StmtKind::Loop { condition: condition.flatten(), body, update, body_first }, span });
+        falls_through
+    }
+
+    fn for_loop(
+        &mut self,
+        init: Option<&'a tree::Stmt>,
+        condition: Option<&'a tree::Expr>,
+        update: &'a [tree::Expr],
+        body: &'a tree::Stmt,
+        span: Span,
+        out: &mut Vec<Stmt>,
+    ) -> bool {
+        self.open_scope();
+        let mut inner = Vec::new();
+        if let Some(init) = init {
+            self.statement(init, &mut inner);
+        }
+        let condition = condition.map(|c| self.condition(c));
+        let update: Vec<Option<Expr>> = update.iter().map(|u| self.expression(u)).collect();
+        self.body.loops += 1;
+        let body = self.inner(body);
+        self.body.loops -= 1;
+        let update = update.into_iter().flatten().collect();
+        let falls_through = self.close_loop(condition, update, body, false, span, &mut inner);
+        self.close_scope();
+        out.push(Stmt { kind: StmtKind::Block(inner), span });
+        falls_through
+    }
+
+    fn forall(&mut self, variable: &'a tree::Name, over: &'a tree::Expr, body: &'a tree::Stmt) -> Option<StmtKind> {
+        enum Over {
+            Set(Expr),
+            Ring(crate::ir::Ring),
+        }
+        let is_old = matches!(bare(over).kind, Tree::Old(_));
+        let checked = if is_old {
+            self.ring(over, None).map(Over::Ring)
+        } else {
+            match self.walked(over) {
+                Some(e) if e.ty == Type::Mesh => Some(Over::Set(e)),
+                Some(e) if e.ty == VERTEX => Some(Over::Ring(crate::ir::Ring { vertex: Box::new(e), old: false })),
+                Some(e) => self.fail(Diagnostic::error(
+                    e.span,
+                    format!("`forall` walks a mesh or the neighbours of a vertex, not a `{}`", type_text(e.ty)),
+                )),
+                None => None,
+            }
+        };
+        self.open_scope();
+        let new = NewLocal {
+            name: &variable.text,
+            span: variable.span,
+            ty: Some(VERTEX),
+            role: Role::Forall,
+            is_const: false,
+        };
+        let local = self.declare(new);
+        self.body.loops += 1;
+        let (body, _) = self.inner(body);
+        self.body.loops -= 1;
+        self.close_scope();
+        Some(match checked? {
+            Over::Set(set) => StmtKind::ForallSet { local, set, body },
+            Over::Ring(ring) => StmtKind::ForallRing { local, ring, body },
+        })
+    }
+
+    fn walked(&mut self, over: &'a tree::Expr) -> Option<Expr> {
+        let inner = bare(over);
+        let e = match &inner.kind {
+            Tree::Name(name) => {
+                self.name_expression(name, inner.span, super::suggest::Wanted::Vertex { except: None })?
+            }
+            _ => self.expression(over)?,
+        };
+        if matches!(e.kind, ExprKind::Constant(Value::Vertex(None))) {
+            return self.fail(Diagnostic::error(over.span, "`null` has no neighbours"));
+        }
+        Some(e)
+    }
+}
+
+/// What a loop's body does to the loop.
+#[derive(Default)]
+struct Leaves {
+    breaks: bool,
+    continues: bool,
+}
+
+fn leaves_loop(body: &[Stmt]) -> Leaves {
+    let mut leaves = Leaves::default();
+    let mut open: Vec<&[Stmt]> = vec![body];
+    while let Some(statements) = open.pop() {
+        for s in statements {
+            match &s.kind {
+                StmtKind::Break => leaves.breaks = true,
+                StmtKind::Continue => leaves.continues = true,
+                StmtKind::Block(inner) => open.push(inner),
+                StmtKind::If { then, otherwise, .. } => open.extend([&then[..], &otherwise[..]]),
+                _ => {}
+            }
+        }
+    }
+    leaves
+}

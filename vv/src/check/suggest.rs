@@ -1,0 +1,179 @@
+//! Names that may have been meant.
+
+use crate::builtins::{Builtin, NUMBERS};
+use crate::diagnostic::Diagnostic;
+use crate::ir::{LocalId, Type};
+use crate::mesh;
+use crate::source::Span;
+use crate::syntax::tree::Element;
+
+use super::Checker;
+use super::body::Role;
+
+/// Searching costs as much as there are names; after so many unknown ones the cause lies elsewhere.
+pub(super) const MAX_SEARCHES: u32 = 50;
+
+/// Where an unknown name stands.
+#[derive(Clone, Copy)]
+pub(super) enum Wanted<'a> {
+    /// Anywhere.
+    Any,
+    /// Where a vertex is needed, which is not `except` (the item looked for in its ring).
+    Vertex { except: Option<&'a str> },
+}
+
+impl<'a> Checker<'a> {
+    /// Reports a name that means nothing, once for each function.
+    pub(super) fn unknown_name(&mut self, name: &'a str, span: Span, wanted: Wanted<'a>) {
+        if !self.body.unknown.insert(name) {
+            return;
+        }
+        let error = Diagnostic::error(span, format!("`{name}` is not declared"));
+        let error = if matches!(name, "NULL" | "nullptr" | "nil" | "None" | "Null") {
+            error.fix("write `null`", span, "null")
+        } else if let Some(f) = self.function_names.get(name).and_then(|f| self.signatures.get(f.0 as usize)) {
+            error.label(f.span, "a function has this name").hint(format!("call it: `{name}(…)`"))
+        } else if Builtin::named(name).next().is_some() {
+            error.hint(format!("call the function: `{name}(…)`"))
+        } else {
+            self.suggest_variable(error, name, span, wanted)
+        };
+        self.report(error);
+    }
+
+    fn suggest_variable(&self, error: Diagnostic, name: &str, span: Span, wanted: Wanted<'a>) -> Diagnostic {
+        let visible: Vec<LocalId> = self.body.visible().collect();
+        let usable = |&id: &LocalId| match wanted {
+            Wanted::Any => true,
+            Wanted::Vertex { except } => {
+                let ty = self.body.local(id).map(|l| l.ty);
+                let vertex = Type::Value(mesh::Type::Vertex);
+                (ty == Some(vertex) || ty == Some(Type::Mesh)) && self.body.name(id) != except.unwrap_or("")
+            }
+        };
+        let locals = visible.iter().copied().filter(usable).filter_map(|id| Some(self.body.local(id)?.name.clone()));
+        let mut candidates: Vec<String> = locals.collect();
+        if matches!(wanted, Wanted::Any) {
+            candidates.extend(self.globals.iter().map(|g| g.name.clone()));
+            candidates.extend(NUMBERS.iter().map(|n| n.name.to_owned()));
+        }
+        if let Some(near) = self.nearest(name, candidates.iter().map(String::as_str)) {
+            return error.fix(format!("did you mean `{near}`?"), span, near);
+        }
+        let Wanted::Vertex { .. } = wanted else { return error };
+        let vertex = |id: &LocalId| self.body.local(*id).is_some_and(|l| l.ty == Type::Value(mesh::Type::Vertex));
+        let vertices: Vec<LocalId> = visible.iter().copied().filter(usable).filter(vertex).collect();
+        let walked = vertices.iter().copied().find(|&id| self.body.role(id) == Some(Role::Forall));
+        let Some(&first) = vertices.first() else { return error };
+        let chosen = walked.unwrap_or(first);
+        let chosen_name = self.body.name(chosen).to_owned();
+        let others: Vec<String> = vertices
+            .iter()
+            .filter(|&&id| id != chosen)
+            .take(4)
+            .map(|&id| format!("`{}`", self.body.name(id)))
+            .collect();
+        let why = if walked.is_some() { ", the vertex of this `forall`" } else { "" };
+        let error = error.fix(format!("did you mean `{chosen_name}`{why}?"), span, chosen_name);
+        if others.is_empty() { error } else { error.evidence(format!("other vertices here: {}", others.join(", "))) }
+    }
+
+    /// Reports a call of a function that there is not.
+    pub(super) fn unknown_function(&mut self, name: &'a str, span: Span) {
+        let error = Diagnostic::error(span, format!("there is no function `{name}`"));
+        if let Some(id) = self.body.find(name) {
+            let error = match self.body.local(id).map(|l| l.span) {
+                Some(declared) => error.label(declared, format!("`{name}` is a variable")),
+                None => error,
+            };
+            self.report(error);
+            return;
+        }
+        if !self.body.unknown.insert(name) {
+            return;
+        }
+        let own: Vec<&str> = self.signatures.iter().map(|s| s.name).collect();
+        let builtins = Builtin::all().map(|b| -> &str { b.name() });
+        let names = own.into_iter().chain(builtins);
+        let error = match self.nearest(name, names) {
+            Some(near) => error.fix(format!("did you mean `{near}`?"), span, near),
+            None => error,
+        };
+        self.report(error);
+    }
+
+    /// Reports a property that was not declared.
+    pub(super) fn unknown_property(&mut self, element: Element, name: &str, span: Span) {
+        let (of, block) = match element {
+            Element::Vertex => ("vertices have", "vertex"),
+            Element::Edge => ("edges have", "edge"),
+            Element::Mesh => ("meshes have", "mesh"),
+        };
+        let error = Diagnostic::error(span, format!("{of} no property `{name}`"));
+        let mut names: Vec<&str> = self.properties(element).declarations.iter().map(|p| p.name.as_str()).collect();
+        if element == Element::Vertex {
+            names.push("pos");
+        }
+        let near = self.nearest(name, names.into_iter());
+        let error = match near {
+            Some(near) => error.fix(format!("did you mean `{near}`?"), span, near),
+            None if element == Element::Vertex && matches!(name, "position" | "p" | "point") => {
+                error.fix("the position is `pos`", span, "pos")
+            }
+            None => error,
+        };
+        self.report(error.hint(format!("declare it at file scope: `{block} {{ double {name} = 0; }};`")));
+    }
+
+    /// The name next to `name`, if one is near; of equally near ones the first.
+    fn nearest<'n>(&self, name: &str, candidates: impl Iterator<Item = &'n str>) -> Option<String> {
+        self.searches_left.set(self.searches_left.get().checked_sub(1)?);
+        let allowed = match name.chars().count() {
+            0..=2 => 0,
+            3..=5 => 1,
+            6..=64 => 2,
+            _ => return None,
+        };
+        let name = name.to_lowercase();
+        candidates
+            .filter(|c| c.len() <= 128)
+            .map(|c| (distance(&name, &c.to_lowercase()), c))
+            .filter(|&(d, _)| d <= allowed)
+            .min_by_key(|&(d, _)| d)
+            .map(|(_, c)| c.to_owned())
+    }
+}
+
+/// How many characters to insert, delete, change or swap with their neighbour (optimal string alignment).
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut before: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let change = last[j] + usize::from(a[i] != b[j]);
+            let mut cost = change.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                cost = cost.min(before[j - 1] + 1);
+            }
+            row.push(cost);
+        }
+        before = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::distance;
+
+    #[test]
+    fn distances_count_insertions_deletions_changes_and_swaps() {
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("center", "centre"), 1);
+        assert_eq!(distance("normalise", "normalize"), 1);
+        assert_eq!(distance("vertx", "vertex"), 1);
+        assert_eq!(distance("pos", "age"), 3);
+    }
+}
