@@ -2,12 +2,15 @@
 //!
 //! The command line calls it on the main thread, the window on the worker's.
 
-use std::time::Instant;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::{Duration, Instant};
 
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use vv::diagnostic::Diagnostic;
-use vv::engine::{self, Failure, FailureKind, Output, Settings};
+use vv::engine::{self, Failure, FailureKind, Limits, Output, Settings};
 use vv::ir::{FunctionId, Program};
 use vv::mesh::{Mesh, close};
+use vv::stop::{Stop, Stopped};
 
 /// A mesh after `start` (generation 0) or after a step, closed.
 #[derive(Debug, Clone, Default)]
@@ -59,4 +62,70 @@ pub fn advance(
         diagnostic: Box::new(Diagnostic::new(vv::diagnostic::Severity::Error, None, stopped.to_string())),
     })?;
     Ok(Generation { mesh, warnings, step_s, closing_s: began.elapsed().as_secs_f64() })
+}
+
+/// The default budgets on this machine: memory is at most three quarters of what the machine, or the control group
+/// the process is in, has.
+#[must_use]
+pub fn machine_limits() -> Limits {
+    let limits = Limits::default();
+    let memory = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
+    let Ok(system) = System::new_with_specifics(memory) else { return limits };
+    let group = system.cgroup_limits().map_or(u64::MAX, |group| group.total_memory);
+    match system.total_memory().min(group) {
+        0 => limits,
+        total => {
+            Limits { max_bytes: limits.max_bytes.min(usize::try_from(total / 4 * 3).unwrap_or(usize::MAX)), ..limits }
+        }
+    }
+}
+
+/// Does `work` with a flag that is set when `limit` is over; `None` gives it all the time it takes.
+pub fn within<T>(limit: Option<Duration>, work: impl FnOnce(&Stop) -> T) -> T {
+    let stop = Stop::new();
+    let Some(limit) = limit else { return work(&stop) };
+    let (done, ended) = channel::<()>();
+    std::thread::scope(|threads| {
+        let flag = stop.clone();
+        threads.spawn(move || {
+            if ended.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
+                flag.request(Stopped::ByTime);
+            }
+        });
+        let result = work(&stop);
+        drop(done);
+        result
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_stopped_when_its_time_is_over() {
+        let began = Instant::now();
+        let stopped = within(Some(Duration::from_millis(20)), |stop| {
+            while stop.check().is_ok() {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            stop.check()
+        });
+        assert_eq!(stopped, Err(Stopped::ByTime));
+        assert!(began.elapsed() < Duration::from_secs(5));
+    }
+
+    #[test]
+    fn work_that_ends_in_time_does_not_wait() {
+        let began = Instant::now();
+        assert_eq!(within(Some(Duration::from_secs(3600)), Stop::check), Ok(()));
+        assert!(began.elapsed() < Duration::from_secs(5));
+    }
+
+    #[test]
+    fn the_memory_budget_fits_the_machine() {
+        let limits = machine_limits();
+        assert!(limits.max_bytes > 0 && limits.max_bytes <= 16 << 30);
+        assert_eq!(limits.max_vertices, 50_000_000);
+    }
 }

@@ -1,11 +1,32 @@
 //! Files in and out: programs with their includes, meshes, and writing whole or not at all.
 
+mod writing;
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use vv::Compilation;
-use vv::diagnostic::Diagnostic;
-use vv::io::ReadOptions;
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::io::{Format, ReadError, ReadOptions};
 use vv::mesh::Mesh;
+use vv::stop::Stop;
+use vv::{Compilation, Included};
+
+pub use writing::{Prepared, commit, prepare, write};
+
+use crate::library;
+
+/// The path that means standard input or output.
+pub const STANDARD_STREAM: &str = "-";
+
+/// Longest program read, in bytes.
+pub const MAX_PROGRAM_BYTES: u64 = 16 << 20;
+
+/// Longest mesh file read, in bytes: room for the vertices that the default budget allows.
+pub const MAX_MESH_BYTES: u64 = 16 << 30;
+
+const CLOSED_PIPE: &str = "nobody reads the output any more";
 
 /// Why a file could not be used: the file, and a sentence that helps.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,32 +39,293 @@ pub struct FileError {
     pub diagnostic: Box<Diagnostic>,
 }
 
-/// Reads a program's text: UTF-8 with or without byte-order mark.
+impl FileError {
+    fn new(path: &Path, message: impl Into<String>) -> Self {
+        let diagnostic = Box::new(Diagnostic::new(Severity::Error, None, message));
+        Self { path: path.to_owned(), line: None, diagnostic }
+    }
+
+    /// Whether it was a pipe that nobody reads any more: a reader who has enough, no fault.
+    #[must_use]
+    pub fn is_closed_pipe(&self) -> bool {
+        self.diagnostic.message == CLOSED_PIPE
+    }
+
+    fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.diagnostic = Box::new(self.diagnostic.hint(hint));
+        self
+    }
+
+    /// The diagnostic with file and line in front of its message.
+    #[must_use]
+    pub fn located(&self) -> Diagnostic {
+        located(&self.path, self.line, Diagnostic::clone(&self.diagnostic))
+    }
+}
+
+/// A diagnostic about a file that is no program: file and line stand in front of its message.
+#[must_use]
+pub fn located(path: &Path, line: Option<u32>, mut diagnostic: Diagnostic) -> Diagnostic {
+    let line = line.map_or_else(String::new, |line| format!(":{line}"));
+    diagnostic.message = format!("{}{line}: {}", shown(path), diagnostic.message);
+    diagnostic
+}
+
+/// Whether the path names something that can be opened and is no directory.
 ///
 /// # Errors
-/// What the file system says, or that the text is not UTF-8.
-pub fn read_program(_path: &Path) -> Result<String, FileError> {
-    Ok(String::new())
+/// What the file system says.
+pub fn check_readable(path: &Path) -> Result<(), FileError> {
+    open(path).map(drop)
+}
+
+/// What to call a file: its path as given, `<stdin>` for `-`.
+#[must_use]
+pub fn shown(path: &Path) -> String {
+    if is_standard_stream(path) { "<stdin>".to_owned() } else { path.display().to_string() }
+}
+
+/// Whether the path is `-`.
+#[must_use]
+pub fn is_standard_stream(path: &Path) -> bool {
+    path.as_os_str() == STANDARD_STREAM
+}
+
+/// Reads a program's text: UTF-8 with or without byte-order mark. `-` is standard input.
+///
+/// # Errors
+/// What the file system says, that the text is not UTF-8, or that it is longer than [`MAX_PROGRAM_BYTES`].
+pub fn read_program(path: &Path) -> Result<String, FileError> {
+    let mut bytes = read(path, MAX_PROGRAM_BYTES, &Stop::new())?;
+    if bytes.starts_with(b"\xEF\xBB\xBF") {
+        bytes.drain(..3);
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.iter().filter(|&&b| b == b'\n').count() as u32 + 1;
+        let byte = error.as_bytes().get(before.len()).copied().unwrap_or_default();
+        let mut error = FileError::new(path, "is no text in UTF-8").hint("save the program as UTF-8");
+        error.diagnostic.evidence.push(format!("the byte 0x{byte:02X} begins no character"));
+        error.line = Some(line);
+        error
+    })
 }
 
 /// Compiles a text as if it stood in `path`; includes are looked for beside the file that names them, then among the
-/// programs that ship with vv. Also returns the files it was made of, for watching.
-pub fn compile(_path: &Path, _text: &str) -> (Compilation, Vec<PathBuf>) {
-    (vv::compile("", "", &mut |_, _| Err(String::new())), Vec::new())
+/// programs that ship with vv. Also returns the files to watch: `path` and every place where an include was looked
+/// for, whether or not there is a file.
+#[must_use]
+pub fn compile(path: &Path, text: &str) -> (Compilation, Vec<PathBuf>) {
+    let name = shown(path);
+    let mut includes = Includes::new(path, &name);
+    let compilation = vv::compile(&name, text, &mut |from, wanted| includes.find(from, wanted));
+    (compilation, includes.looked_at)
 }
 
-/// Reads a mesh, its format by extension.
-///
-/// # Errors
-/// What the file system or the reader says.
-pub fn read_mesh(_path: &Path, _options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), FileError> {
-    Ok((Mesh::new(), Vec::new()))
+/// Finds included texts and remembers what they are called.
+struct Includes {
+    /// Path of each file by the name it was given.
+    paths: HashMap<String, PathBuf>,
+    /// Name of each file by its canonical path: one file has one name, so that cycles end.
+    names: HashMap<PathBuf, String>,
+    looked_at: Vec<PathBuf>,
 }
 
-/// Writes a file whole or not at all: into a temporary file beside it, then renames.
+impl Includes {
+    fn new(path: &Path, name: &str) -> Self {
+        let base = if is_standard_stream(path) { Path::new("") } else { path };
+        let mut names = HashMap::new();
+        if let Ok(canonical) = base.canonicalize() {
+            names.insert(canonical, name.to_owned());
+        }
+        let looked_at = if is_standard_stream(path) { Vec::new() } else { vec![path.to_owned()] };
+        Self { paths: HashMap::from([(name.to_owned(), base.to_owned())]), names, looked_at }
+    }
+
+    fn find(&mut self, from: &str, wanted: &str) -> Result<Included, String> {
+        // A shipped program includes shipped programs only: what it means must not depend on where it is used.
+        let Some(from_path) = self.paths.get(from) else {
+            return library::include(wanted).ok_or_else(|| format!("vv ships with no program `{wanted}`"));
+        };
+        let path = from_path.parent().unwrap_or(Path::new("")).join(wanted);
+        if !self.looked_at.contains(&path) {
+            self.looked_at.push(path.clone());
+        }
+        if path.symlink_metadata().is_err_and(|e| matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)) {
+            return library::include(wanted).ok_or_else(|| {
+                format!("there is no file `{}`, and vv ships with no program of this name", path.display())
+            });
+        }
+        let text = read_program(&path).map_err(|error| error.located().message)?;
+        let canonical = path.canonicalize().unwrap_or_else(|_| path.clone());
+        let name = self.names.entry(canonical).or_insert_with(|| path.display().to_string()).clone();
+        self.paths.entry(name.clone()).or_insert(path);
+        Ok(Included { name, text })
+    }
+}
+
+/// Reads a mesh, its format by extension. `-` is standard input: an OFF if it says so in its first word, else an OBJ.
 ///
 /// # Errors
-/// What the file system says; the file is then as it was.
-pub fn write(_path: &Path, _bytes: &[u8]) -> Result<(), FileError> {
-    Ok(())
+/// What the file system or the reader says. When `options.stop` was set the error says that.
+pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), FileError> {
+    let named = if is_standard_stream(path) { None } else { Some(mesh_format(path)?) };
+    let bytes = read(path, MAX_MESH_BYTES, &options.stop)?;
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err(FileError::new(path, "is empty").hint("a mesh file lists vertices and faces"));
+    }
+    let format = named.unwrap_or_else(|| sniff(&bytes));
+    vv::io::read(&bytes, format, options).map_err(|error| match error {
+        ReadError::Invalid { line, diagnostic } => FileError { path: path.to_owned(), line, diagnostic },
+        ReadError::Stopped(stopped) => FileError::new(path, stopped.to_string()),
+    })
+}
+
+/// The mesh format that a path's extension names.
+///
+/// # Errors
+/// If it names none.
+pub fn mesh_format(path: &Path) -> Result<Format, FileError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    Format::from_extension(&extension).ok_or_else(|| {
+        let known: Vec<_> = Format::ALL.iter().map(|f| format!("`.{}`", f.extension())).collect();
+        let message = if extension.is_empty() {
+            "has no extension that says how the mesh is written".to_owned()
+        } else {
+            format!("`.{extension}` is no mesh format that vv reads")
+        };
+        FileError::new(path, message).hint(format!("use {}", known.join(" or ")))
+    })
+}
+
+/// The format that a mesh text says it is in: OFF texts begin with a word that ends in `OFF`.
+fn sniff(bytes: &[u8]) -> Format {
+    let line = bytes.split(|&b| b == b'\n').map(<[u8]>::trim_ascii).find(|l| !l.is_empty() && !l.starts_with(b"#"));
+    let word = line.and_then(|l| l.split(u8::is_ascii_whitespace).next()).unwrap_or_default();
+    if word.to_ascii_uppercase().ends_with(b"OFF") { Format::Off } else { Format::Obj }
+}
+
+/// The bytes of a file or of standard input.
+fn read(path: &Path, limit: u64, stop: &Stop) -> Result<Vec<u8>, FileError> {
+    const CHUNK: u64 = 1 << 20;
+    let fail = |error: io::Error| FileError::new(path, sentence(&error));
+    let mut source: Box<dyn Read> =
+        if is_standard_stream(path) { Box::new(io::stdin().lock()) } else { Box::new(open(path)?) };
+    let mut bytes = Vec::new();
+    loop {
+        let count = source.by_ref().take(CHUNK).read_to_end(&mut bytes).map_err(fail)?;
+        if count == 0 {
+            return Ok(bytes);
+        }
+        // Texts hold no NUL; what does is binary or a device without end.
+        if bytes.len() == count && bytes.contains(&0) {
+            return Err(FileError::new(path, "is no text: it holds zero bytes"));
+        }
+        if bytes.len() as u64 > limit {
+            return Err(FileError::new(path, format!("is longer than {} MiB", limit >> 20)));
+        }
+        stop.check().map_err(|stopped| FileError::new(path, stopped.to_string()))?;
+    }
+}
+
+fn open(path: &Path) -> Result<File, FileError> {
+    let fail = |error: io::Error| FileError::new(path, sentence(&error));
+    let file = File::open(path).map_err(fail)?;
+    if file.metadata().map_err(fail)?.is_dir() {
+        return Err(FileError::new(path, "is a directory, not a file"));
+    }
+    Ok(file)
+}
+
+/// What the file system says, in words of one line.
+#[must_use]
+pub fn sentence(error: &io::Error) -> String {
+    match error.kind() {
+        ErrorKind::NotFound => "there is no such file or directory".to_owned(),
+        ErrorKind::PermissionDenied => "the file system does not permit it".to_owned(),
+        ErrorKind::IsADirectory => "is a directory, not a file".to_owned(),
+        ErrorKind::NotADirectory => "a part of the path is no directory".to_owned(),
+        ErrorKind::StorageFull => "no space is left on the device".to_owned(),
+        ErrorKind::BrokenPipe => CLOSED_PIPE.to_owned(),
+        _ => {
+            let text = error.to_string();
+            let text = text.split(" (os error").next().unwrap_or_default();
+            let mut letters = text.chars();
+            letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[track_caller]
+    fn fails(result: Result<impl std::fmt::Debug, FileError>, line: Option<u32>, message: &str) {
+        let error = result.unwrap_err();
+        assert_eq!((error.line, error.diagnostic.message.as_str()), (line, message));
+    }
+
+    #[test]
+    fn a_program_is_utf8_with_or_without_byte_order_mark() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("p.vv");
+        fs::write(&path, "\u{FEFF}// ü").unwrap();
+        assert_eq!(read_program(&path).unwrap(), "// ü");
+        fs::write(&path, b"// a\n// \xFC").unwrap();
+        fails(read_program(&path), Some(2), "is no text in UTF-8");
+        fs::write(&path, [0; 9]).unwrap();
+        fails(read_program(&path), None, "is no text: it holds zero bytes");
+        fs::write(&path, vec![b' '; MAX_PROGRAM_BYTES as usize + 1]).unwrap();
+        fails(read_program(&path), None, "is longer than 16 MiB");
+    }
+
+    #[test]
+    fn a_path_that_is_no_file_says_what_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        fails(read_program(folder.path()), None, "is a directory, not a file");
+        fails(read_program(&folder.path().join("none.vv")), None, "there is no such file or directory");
+        fs::write(folder.path().join("file"), "").unwrap();
+        fails(read_program(&folder.path().join("file/p.vv")), None, "a part of the path is no directory");
+    }
+
+    #[test]
+    fn a_mesh_format_is_known_by_extension_of_any_case() {
+        assert_eq!(mesh_format(Path::new("a.b/c.OFF")), Ok(Format::Off));
+        fails(mesh_format(Path::new("a.stp")), None, "`.stp` is no mesh format that vv reads");
+        fails(mesh_format(Path::new("obj")), None, "has no extension that says how the mesh is written");
+    }
+
+    #[test]
+    fn a_mesh_without_name_is_known_by_its_first_word() {
+        for (text, format) in [
+            ("OFF\n3 1 0", Format::Off),
+            ("# made by hand\n\n  COFF # colours\n", Format::Off),
+            ("off 3 1 0", Format::Off),
+            ("# OFF\nv 0 0 0", Format::Obj),
+            ("", Format::Obj),
+        ] {
+            assert_eq!(sniff(text.as_bytes()), format, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn an_include_is_found_beside_its_includer_and_has_one_name() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("sub")).unwrap();
+        fs::write(folder.path().join("sub/b.vv"), "B").unwrap();
+        fs::write(folder.path().join("sub/c.vv"), "C").unwrap();
+        let main = folder.path().join("a.vv");
+        fs::write(&main, "A").unwrap();
+        let mut includes = Includes::new(&main, "a.vv");
+        let b = includes.find("a.vv", "sub/b.vv").unwrap();
+        assert_eq!(b.text, "B");
+        let c = includes.find(&b.name, "c.vv").unwrap();
+        assert_eq!(c.text, "C");
+        assert_eq!(includes.find("a.vv", "sub/../sub/c.vv").unwrap().name, c.name);
+        assert_eq!(includes.find(&b.name, "../a.vv").unwrap().name, "a.vv");
+        assert!(includes.find("a.vv", "none.vv").unwrap_err().contains("none.vv"));
+        assert!(includes.looked_at.contains(&folder.path().join("none.vv")));
+    }
 }

@@ -1,2 +1,7 @@
-//! x
-fn main() {}
+//! The command line of vv.
+
+mod commands;
+
+fn main() -> std::process::ExitCode {
+    commands::main()
+}

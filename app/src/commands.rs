@@ -1,0 +1,237 @@
+//! What the command line understands. Each sub-command is one file.
+
+mod check;
+mod convert;
+mod info;
+mod input;
+mod open;
+mod output;
+mod picture;
+mod reference;
+mod report;
+mod run;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::source::Sources;
+
+use report::Reporter;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  success
+  1  the program has errors, or a step failed
+  2  the command line is wrong
+  3  a file could not be read or written
+  4  a budget (vertices, memory, call depth) or the time is used up
+  5  the result differs from the reference
+  6  no renderer: no display for the window, no GPU or software driver for pictures";
+
+const EXAMPLES: &str = "\
+Examples:
+  vv                                          open the modeler
+  vv bunny.obj loop.vv                        open it with a mesh and a program
+  vv run loop.vv -i bunny.obj -n 2 -o out.obj -o out.png
+  vv check *.vv
+  vv mesh info bunny.obj
+  vv mesh convert bunny.obj -o bunny.off
+
+";
+
+/// Writes mesh algorithms as they are drawn on paper and watches them happen: a modeler for the vertex–vertex language.
+///
+/// Without a sub-command vv opens its window. A mesh (.obj, .off) and a program (.vv) may be given in either order.
+#[derive(Debug, Parser)]
+#[command(name = "vv", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
+#[command(override_usage = "vv [MESH] [PROGRAM]\n       vv <COMMAND>")]
+#[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// A mesh (.obj, .off) and a program (.vv) to open, in either order.
+    #[arg(value_name = "MESH|PROGRAM")]
+    files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a program without window.
+    Run(run::Arguments),
+    /// Check programs for errors without running them.
+    Check(check::Arguments),
+    /// Look at mesh files and convert them.
+    #[command(subcommand)]
+    Mesh(MeshCommand),
+}
+
+#[derive(Debug, Subcommand)]
+enum MeshCommand {
+    /// Count what a mesh is made of and say what is odd about it.
+    Info(info::Arguments),
+    /// Write a mesh in another format, or as a picture.
+    Convert(convert::Arguments),
+}
+
+/// How errors and warnings are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum DiagnosticFormat {
+    /// With the lines of the program that they are about, evidence and hints.
+    Human,
+    /// One line each: file:line:column: error: message.
+    Short,
+    /// One JSON object on a line each.
+    Json,
+}
+
+/// Options of everything that may report errors in files.
+#[derive(Debug, Args)]
+struct Reporting {
+    /// How errors and warnings are written to stderr.
+    #[arg(long, value_enum, default_value_t = DiagnosticFormat::Human, value_name = "FORMAT")]
+    diagnostic_format: DiagnosticFormat,
+}
+
+/// Options of everything that reads a mesh.
+#[derive(Debug, Args)]
+struct Importing {
+    /// Refuse a mesh that would have to be repaired.
+    #[arg(long)]
+    strict: bool,
+    /// Time for each step with closing it, and for reading a mesh; 0 for as long as it takes.
+    #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
+    timeout: Timeout,
+    /// How many vertices a mesh may have.
+    #[arg(long, value_name = "N", default_value_t = vv::engine::Limits::default().max_vertices)]
+    max_vertices: usize,
+}
+
+/// How a command ended when it did not end well; what is wrong was reported already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Exit {
+    /// The program has errors or did something that has no meaning.
+    Program = 1,
+    /// The command line cannot be meant so.
+    Usage = 2,
+    /// A file could not be read or written.
+    File = 3,
+    /// A budget or the time is used up.
+    Budget = 4,
+    /// The result is not the reference.
+    Different = 5,
+    /// No display or no GPU.
+    NoRenderer = 6,
+}
+
+/// Runs what the command line says.
+pub fn main() -> ExitCode {
+    let began = Instant::now();
+    let cli = Cli::parse();
+    let result = match cli.command {
+        None => open::open(&cli.files),
+        Some(Command::Run(arguments)) => run::run(&arguments, began),
+        Some(Command::Check(arguments)) => check::check(&arguments),
+        Some(Command::Mesh(MeshCommand::Info(arguments))) => info::info(&arguments),
+        Some(Command::Mesh(MeshCommand::Convert(arguments))) => convert::convert(&arguments),
+    };
+    result.map_or_else(|exit| ExitCode::from(exit as u8), |()| ExitCode::SUCCESS)
+}
+
+/// A message about the run as a whole.
+fn error(message: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Severity::Error, None, message)
+}
+
+/// Reports a message without place and ends with `exit`.
+fn fail<T>(reporter: &Reporter, exit: Exit, diagnostic: Diagnostic) -> Result<T, Exit> {
+    reporter.report(&[diagnostic], &Sources::default());
+    Err(exit)
+}
+
+/// The messages of those that are warnings.
+fn warnings_of(diagnostics: &[Diagnostic]) -> Vec<String> {
+    diagnostics.iter().filter(|d| d.severity == Severity::Warning).map(|d| d.message.clone()).collect()
+}
+
+/// A time that may be endless.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Timeout(Option<Duration>);
+
+fn seconds(text: &str) -> Result<Timeout, String> {
+    let seconds: f64 = text.parse().map_err(|_| "seconds are a number such as 300 or 0.5".to_owned())?;
+    if seconds == 0.0 {
+        return Ok(Timeout(None));
+    }
+    Duration::try_from_secs_f64(seconds).map(|d| Timeout(Some(d))).map_err(|e| e.to_string())
+}
+
+/// The candidate that is most like `name`, if one is like it at all.
+fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let distances = candidates.into_iter().map(|candidate| (edit_distance(name, candidate), candidate));
+    let (distance, candidate) = distances.min_by_key(|&(distance, _)| distance)?;
+    (distance <= name.chars().count().max(candidate.chars().count()) / 3).then_some(candidate)
+}
+
+/// Levenshtein's distance: fewest insertions, deletions and replacements.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, &y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// `a`, `b` and `c`, each in back quotes.
+fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let names: Vec<_> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [name] => name.clone(),
+        [names @ .., last] => format!("{} and {last}", names.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory as _;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_name_is_guessed_only_if_it_is_alike() {
+        let names = ["run", "check", "mesh"];
+        assert_eq!(closest("rnu", names), None);
+        assert_eq!(closest("chek", names), Some("check"));
+        assert_eq!(closest("meshes", names), Some("mesh"));
+        assert_eq!(closest("x", names), None);
+        assert_eq!(edit_distance("kitten", "sitting"), 3);
+    }
+
+    #[test]
+    fn a_timeout_is_a_number_of_seconds() {
+        assert_eq!(seconds("0.5"), Ok(Timeout(Some(Duration::from_millis(500)))));
+        assert_eq!(seconds("0"), Ok(Timeout(None)));
+        for wrong in ["-1", "nan", "inf", "1e300", "1s", ""] {
+            assert!(seconds(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn lists_read_as_sentences() {
+        assert_eq!(list(["a"]), "`a`");
+        assert_eq!(list(["a", "b", "c"]), "`a`, `b` and `c`");
+    }
+}

@@ -1,0 +1,41 @@
+//! `vv mesh convert`
+
+use std::path::PathBuf;
+
+use app::evaluation::within;
+use clap::Args;
+use vv::mesh::faces::faces;
+
+use super::output::OutputArguments;
+use super::report::Reporter;
+use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, output};
+
+/// Reads a mesh as `vv run` would and writes it. Polygons and the order of the vertices are kept.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub struct Arguments {
+    /// The mesh; `-` is stdin, in either format.
+    mesh: PathBuf,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    importing: Importing,
+    #[command(flatten)]
+    reporting: Reporting,
+}
+
+/// Writes all outputs or none.
+pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
+    let reporter = Reporter::new(arguments.reporting.diagnostic_format);
+    if arguments.output.output.is_empty() {
+        return fail(&reporter, Exit::Usage, error("nothing says where to write").hint("add `-o FILE`"));
+    }
+    let targets = arguments.output.targets(&reporter)?;
+    let (mesh, _) = input::mesh(&arguments.mesh, &arguments.importing, &reporter)?;
+    let faces = match within(arguments.importing.timeout.0, |stop| faces(&mesh, stop)) {
+        Ok(faces) => faces,
+        Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),
+    };
+    let outputs = output::prepare(&targets, arguments.output.size(), &mesh, &faces, &reporter)?;
+    output::commit(outputs.prepared, &reporter)
+}

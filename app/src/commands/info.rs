@@ -1,0 +1,88 @@
+//! `vv mesh info`
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use vv::mesh::faces::faces;
+use vv::mesh::statistics::{Statistics, statistics};
+
+use app::evaluation::within;
+
+use super::report::{Reporter, write_stdout};
+use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, warnings_of};
+
+/// Reads a mesh as `vv run` would and says what it is made of and what had to be repaired.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub struct Arguments {
+    /// The mesh; `-` is stdin, in either format.
+    mesh: PathBuf,
+    /// Write one JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    importing: Importing,
+    #[command(flatten)]
+    reporting: Reporting,
+}
+
+#[derive(Serialize)]
+struct Info {
+    #[serde(flatten)]
+    statistics: Statistics,
+    /// Least and greatest coordinates; absent without vertices.
+    bounds: Option<[[f64; 3]; 2]>,
+    warnings: Vec<String>,
+}
+
+/// Prints a table or a JSON object.
+pub fn info(arguments: &Arguments) -> Result<(), Exit> {
+    let reporter = Reporter::new(arguments.reporting.diagnostic_format);
+    let (mesh, warnings) = input::mesh(&arguments.mesh, &arguments.importing, &reporter)?;
+    let counted = within(arguments.importing.timeout.0, |stop| statistics(&mesh, &faces(&mesh, stop)?, stop));
+    let statistics = match counted {
+        Ok(statistics) => statistics,
+        Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),
+    };
+    let mut positions = mesh.set.iter().map(|v| mesh.position(v));
+    let bounds = positions.next().map(|first| {
+        positions.fold([first, first], |[least, greatest], p| [least.min(p), greatest.max(p)]).map(|p| p.to_array())
+    });
+    let warnings = warnings_of(&warnings);
+    let info = Info { statistics, bounds, warnings };
+    let text = if arguments.json { json(&info) } else { table(&info) };
+    write_stdout(text.as_bytes(), &reporter)
+}
+
+/// The object on lines of its own.
+pub fn json(object: &impl Serialize) -> String {
+    // Only maps with keys that are no strings and failing `Serialize` implementations can fail; there are none.
+    serde_json::to_string_pretty(object).unwrap_or_default() + "\n"
+}
+
+fn table(Info { statistics, bounds, .. }: &Info) -> String {
+    let counts = |pairs: &[(usize, usize)]| {
+        pairs.iter().map(|(what, count)| format!("{what}: {count}")).collect::<Vec<_>>().join(", ")
+    };
+    let yes = |yes| if yes { "yes" } else { "no" }.to_owned();
+    let mut rows = vec![
+        ("vertices", statistics.vertices.to_string()),
+        ("edges", statistics.edges.to_string()),
+        ("faces", statistics.faces.to_string()),
+        ("face degrees", counts(&statistics.face_degrees)),
+        ("valences", counts(&statistics.valences)),
+        ("components", statistics.components.to_string()),
+        ("boundary loops", statistics.boundary_loops.to_string()),
+        ("Euler characteristic", statistics.euler_characteristic.to_string()),
+        ("genus", statistics.genus.map_or_else(|| "undefined".to_owned(), |genus| genus.to_string())),
+        ("closed", yes(statistics.closed)),
+        ("valid", yes(statistics.valid)),
+    ];
+    if let Some(bounds) = bounds {
+        let [least, greatest] = bounds.map(|[x, y, z]| format!("({x}, {y}, {z})"));
+        rows.push(("bounds", format!("{least} to {greatest}")));
+    }
+    let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
+    rows.iter().map(|(name, value)| format!("{name:width$}  {value}\n")).collect()
+}

@@ -1,0 +1,171 @@
+//! `vv [MESH] [PROGRAM]`
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use app::files;
+use vv::diagnostic::Diagnostic;
+use vv::io::Format;
+
+use super::report::Reporter;
+use super::{DiagnosticFormat, Exit, closest, error, fail, input};
+
+/// Opens the modeler.
+pub fn open(paths: &[PathBuf]) -> Result<(), Exit> {
+    let reporter = Reporter::new(DiagnosticFormat::Human);
+    let Opened { mesh, program } = sort(paths).or_else(|diagnostic| fail(&reporter, Exit::Usage, *diagnostic))?;
+    for path in [&mesh, &program].into_iter().flatten() {
+        files::check_readable(path).map_err(|error| input::file_failed(&error, &reporter))?;
+    }
+    if let Some(problem) = no_window(|name| std::env::var_os(name), loader_finds) {
+        return fail(&reporter, Exit::NoRenderer, problem);
+    }
+    window(mesh, program).or_else(|problem| {
+        let diagnostic = error(format!("the window cannot open: {problem}")).hint(PACKAGES).hint(WITHOUT_WINDOW);
+        fail(&reporter, Exit::NoRenderer, diagnostic)
+    })
+}
+
+fn window(_mesh: Option<PathBuf>, _program: Option<PathBuf>) -> Result<(), String> {
+    Err("it cannot yet".to_owned())
+}
+
+const WITHOUT_WINDOW: &str = "`vv run PROGRAM -i MESH -o out.obj` works without window";
+const PACKAGES: &str = "on Debian and Ubuntu a window needs the packages libxkbcommon-x11-0, libxcursor1, libxi6, \
+                        libx11-xcb1, libvulkan1 and a driver such as mesa-vulkan-drivers";
+
+/// What to open.
+#[derive(Debug, Default, PartialEq, Eq)]
+struct Opened {
+    mesh: Option<PathBuf>,
+    program: Option<PathBuf>,
+}
+
+/// Tells mesh and program apart by extension.
+fn sort(paths: &[PathBuf]) -> Result<Opened, Box<Diagnostic>> {
+    let mut opened = Opened::default();
+    for path in paths {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let (place, kind) = if extension.eq_ignore_ascii_case("vv") {
+            (&mut opened.program, "program")
+        } else if Format::from_extension(&extension).is_some() {
+            (&mut opened.mesh, "mesh")
+        } else {
+            return Err(Box::new(unknown(path)));
+        };
+        if let Some(other) = place.replace(path.clone()) {
+            let message = format!("{} and {} are both a {kind}: vv opens one", other.display(), path.display());
+            return Err(Box::new(error(message)));
+        }
+    }
+    Ok(opened)
+}
+
+fn unknown(path: &Path) -> Diagnostic {
+    let shown = path.display().to_string();
+    let diagnostic = error(format!("`{shown}` is neither a program (.vv) nor a mesh (.obj, .off) nor a command"));
+    match closest(&shown, ["run", "check", "mesh", "help"]) {
+        Some(command) => diagnostic.hint(format!("did you mean `vv {command}`?")),
+        None => diagnostic.hint("the commands are `run`, `check` and `mesh`; `vv --help` explains them"),
+    }
+}
+
+/// Why there can be no window, if that is known in advance. What it asks for is what winit opens at run time: without
+/// a display it says little, without the keyboard library it panics.
+fn no_window<S: AsRef<OsStr>>(
+    variable: impl Fn(&str) -> Option<S>,
+    has_library: impl Fn(&str) -> bool,
+) -> Option<Diagnostic> {
+    if !cfg!(all(unix, not(target_os = "macos"))) {
+        return None;
+    }
+    let set = |name: &str| variable(name).is_some_and(|value| !value.as_ref().is_empty());
+    let wayland = set("WAYLAND_DISPLAY") || set("WAYLAND_SOCKET");
+    if !wayland && !set("DISPLAY") {
+        return Some(
+            error("there is no display to open a window on")
+                .evidence("neither WAYLAND_DISPLAY nor DISPLAY is set")
+                .hint(WITHOUT_WINDOW)
+                .hint("over ssh, `ssh -X` gives a display; `xvfb-run vv` opens the window where nobody sees it"),
+        );
+    }
+    let needed: &[(&str, &str)] = if wayland {
+        &[("libxkbcommon.so.0", "libxkbcommon0"), ("libwayland-client.so.0", "libwayland-client0")]
+    } else {
+        &[
+            ("libxkbcommon.so.0", "libxkbcommon0"),
+            ("libxkbcommon-x11.so.0", "libxkbcommon-x11-0"),
+            ("libX11.so.6", "libx11-6"),
+            ("libX11-xcb.so.1", "libx11-xcb1"),
+            ("libXcursor.so.1", "libxcursor1"),
+            ("libXi.so.6", "libxi6"),
+        ]
+    };
+    let missing: Vec<_> = needed.iter().filter(|(library, _)| !has_library(library)).collect();
+    if missing.is_empty() {
+        return None;
+    }
+    let names = |which: fn(&(&'static str, &'static str)) -> &'static str, between: &str| {
+        missing.iter().map(|&pair| which(pair)).collect::<Vec<_>>().join(between)
+    };
+    Some(
+        error(format!("the window needs libraries that are not installed: {}", names(|p| p.0, ", ")))
+            .hint(format!("on Debian and Ubuntu: apt install {}", names(|p| p.1, " ")))
+            .hint(WITHOUT_WINDOW),
+    )
+}
+
+/// Whether the dynamic loader would find a library. Where that cannot be told (no loader cache) it may.
+fn loader_finds(library: &str) -> bool {
+    let Ok(cache) = fs::read("/etc/ld.so.cache") else { return true };
+    if cache.windows(library.len()).any(|part| part == library.as_bytes()) {
+        return true;
+    }
+    let paths = std::env::var_os("LD_LIBRARY_PATH").unwrap_or_default();
+    let usual = ["/lib", "/usr/lib", "/lib64", "/usr/lib64", "/usr/local/lib"].map(PathBuf::from);
+    std::env::split_paths(&paths).chain(usual).any(|folder| folder.join(library).exists())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn sorted(paths: &[&str], expected: Result<(Option<&str>, Option<&str>), &str>) {
+        let paths: Vec<_> = paths.iter().map(PathBuf::from).collect();
+        let got = sort(&paths).map_err(|d| d.message);
+        let expected = expected
+            .map(|(mesh, program)| Opened { mesh: mesh.map(PathBuf::from), program: program.map(PathBuf::from) });
+        assert_eq!(got, expected.map_err(str::to_owned));
+    }
+
+    #[test]
+    fn mesh_and_program_come_in_either_order() {
+        sorted(&[], Ok((None, None)));
+        sorted(&["a.obj"], Ok((Some("a.obj"), None)));
+        sorted(&["a.OFF", "b.vv"], Ok((Some("a.OFF"), Some("b.vv"))));
+        sorted(&["b.vv", "a.off"], Ok((Some("a.off"), Some("b.vv"))));
+        sorted(&["a.vv", "b.vv"], Err("a.vv and b.vv are both a program: vv opens one"));
+        sorted(&["a.stl"], Err("`a.stl` is neither a program (.vv) nor a mesh (.obj, .off) nor a command"));
+    }
+
+    #[cfg(target_os = "linux")]
+    #[track_caller]
+    fn windowless(variables: &[(&str, &str)], missing: &[&str], expected: Option<&str>) {
+        let variable = |name: &str| variables.iter().find(|(n, _)| *n == name).map(|(_, value)| value);
+        let got = no_window(variable, |library| !missing.contains(&library)).map(|d| d.message);
+        assert_eq!(got.as_deref(), expected);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_keeps_the_window_from_opening_is_known_before() {
+        windowless(&[], &[], Some("there is no display to open a window on"));
+        windowless(&[("DISPLAY", "")], &[], Some("there is no display to open a window on"));
+        windowless(&[("DISPLAY", ":0")], &[], None);
+        windowless(&[("WAYLAND_DISPLAY", "wayland-0")], &["libxkbcommon-x11.so.0"], None);
+        let message = "the window needs libraries that are not installed: libxkbcommon-x11.so.0";
+        windowless(&[("DISPLAY", ":0")], &["libxkbcommon-x11.so.0"], Some(message));
+    }
+}

@@ -1,0 +1,174 @@
+//! Files that commands write: meshes and pictures.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use app::files::{self, Prepared};
+use clap::{Args, ValueEnum};
+use vv::diagnostic::Diagnostic;
+use vv::io::Format;
+use vv::mesh::Mesh;
+use vv::mesh::faces::Faces;
+
+use super::report::Reporter;
+use super::{Exit, error, fail, input};
+
+/// What to write.
+#[derive(Debug, Args)]
+pub struct OutputArguments {
+    /// Write the mesh (.obj, .off) or a picture of it (.png); `-` is stdout. May be repeated.
+    #[arg(short, long = "output", value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// What `-o -` writes, and files whose extension does not say.
+    #[arg(long, value_enum)]
+    format: Option<OutputFormat>,
+    /// Size of pictures in pixels.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<Size>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum OutputFormat {
+    /// Wavefront OBJ
+    Obj,
+    /// Object File Format
+    Off,
+    /// A picture
+    Png,
+}
+
+/// Width and height in pixels.
+pub type Size = (u32, u32);
+
+/// Of pictures, when nobody says.
+const DEFAULT_SIZE: Size = (1280, 960);
+
+/// A file to write.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Target {
+    path: PathBuf,
+    /// Mesh format; `None` is a picture.
+    format: Option<Format>,
+}
+
+/// What was written, and how long it took.
+#[derive(Debug, Default)]
+pub struct Outputs {
+    /// Ready to be put in their places.
+    pub prepared: Vec<Prepared>,
+    /// Seconds for meshes.
+    pub export_s: f64,
+    /// Seconds for pictures.
+    pub render_s: f64,
+}
+
+impl OutputArguments {
+    /// Whether stdout is taken.
+    pub fn to_stdout(&self) -> bool {
+        self.output.iter().any(|path| files::is_standard_stream(path))
+    }
+
+    /// The size of pictures that was asked for.
+    pub fn size(&self) -> Option<Size> {
+        self.size
+    }
+
+    /// What to write, checked: formats are known and each place can be written to, so that nobody waits for a result
+    /// that cannot be kept.
+    ///
+    /// # Errors
+    /// [`Exit::Usage`] or [`Exit::File`], reported.
+    pub fn targets(&self, reporter: &Reporter) -> Result<Vec<Target>, Exit> {
+        let mut targets: Vec<Target> = Vec::new();
+        for path in &self.output {
+            if targets.iter().any(|target| target.path == *path) {
+                return fail(reporter, Exit::Usage, error(format!("`-o {}` is given twice", path.display())));
+            }
+            match self.format_of(path) {
+                Ok(format) => targets.push(Target { path: path.clone(), format }),
+                Err(diagnostic) => return fail(reporter, Exit::Usage, *diagnostic),
+            }
+        }
+        for target in &targets {
+            files::prepare(&target.path, &[]).map_err(|error| input::file_failed(&error, reporter))?;
+        }
+        Ok(targets)
+    }
+
+    fn format_of(&self, path: &Path) -> Result<Option<Format>, Box<Diagnostic>> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        if let Some(format) = Format::from_extension(&extension) {
+            return Ok(Some(format));
+        }
+        if extension.eq_ignore_ascii_case("png") {
+            return Ok(None);
+        }
+        match self.format {
+            Some(OutputFormat::Obj) => Ok(Some(Format::Obj)),
+            Some(OutputFormat::Off) => Ok(Some(Format::Off)),
+            Some(OutputFormat::Png) => Ok(None),
+            None if files::is_standard_stream(path) => {
+                Err(error("`-o -` does not say what to write").hint("add `--format obj`, `off` or `png`").into())
+            }
+            None => Err(error(format!("`-o {}` has no extension that vv writes", path.display()))
+                .hint("write `.obj`, `.off` or `.png`, or say `--format`")
+                .into()),
+        }
+    }
+}
+
+/// Makes all outputs and writes them beside their places.
+///
+/// # Errors
+/// [`Exit::File`] or [`Exit::NoRenderer`], reported.
+pub fn prepare(
+    targets: &[Target],
+    size: Option<Size>,
+    mesh: &Mesh,
+    faces: &Faces,
+    reporter: &Reporter,
+) -> Result<Outputs, Exit> {
+    let mut outputs = Outputs::default();
+    for Target { path, format } in targets {
+        reporter.progress(format!("writing {}", path.display()));
+        let began = Instant::now();
+        let bytes = match format {
+            Some(format) => vv::io::write(mesh, faces, *format),
+            None => super::picture::png(mesh, faces, size.unwrap_or(DEFAULT_SIZE), reporter)?,
+        };
+        outputs.prepared.push(files::prepare(path, &bytes).map_err(|error| input::file_failed(&error, reporter))?);
+        *if format.is_some() { &mut outputs.export_s } else { &mut outputs.render_s } += began.elapsed().as_secs_f64();
+    }
+    Ok(outputs)
+}
+
+/// Puts them in their places.
+///
+/// # Errors
+/// [`Exit::File`], reported; a closed pipe ends quietly.
+pub fn commit(prepared: Vec<Prepared>, reporter: &Reporter) -> Result<(), Exit> {
+    files::commit(prepared).map_err(|error| {
+        if !error.is_closed_pipe() {
+            input::file_failed(&error, reporter);
+        }
+        Exit::File
+    })
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    sides.filter(|&(w, h)| w > 0 && h > 0).ok_or_else(|| "a size is width and height such as 1280x960".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_two_positive_numbers() {
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        for wrong in ["640", "0x480", "640x", "-1x1", "axb", "1x2x3"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! `vv run`
+
+mod parameters;
+mod summary;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use app::evaluation::{self, Generation, machine_limits, within};
+use app::files;
+use clap::{Args, ValueEnum};
+use vv::diagnostic::Diagnostic;
+use vv::engine::{Failure, FailureKind, Limits, Settings};
+use vv::ir::{FunctionId, Program};
+use vv::mesh::Mesh;
+use vv::mesh::faces::{Faces, faces};
+use vv::mesh::statistics::statistics;
+use vv::source::Sources;
+use vv::stop::Stop;
+
+use super::output::OutputArguments;
+use super::reference::Reference;
+use super::report::{Printer, Reporter, write_stdout};
+use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
+use summary::{Summary, Timings};
+
+const EXAMPLES: &str = "\
+Examples:
+  vv run loop.vv -i bunny.obj -n 2 -o fine.obj -o fine.png --size 1920x1080
+  vv run terrain.vv -D roughness=0.4 --seed 7 -o terrain.off      its `start` makes the mesh
+  vv run loop.vv -i - -o - --format off < in.obj > out.off
+  vv run loop.vv -i bunny.obj --summary json | jq .euler_characteristic
+  vv run loop.vv -i bunny.obj -o new.png --reference old.png      a picture test
+
+";
+
+/// Runs a program without window: first its `start`, if it has one, on the input mesh or on none; then its rule, step
+/// by step. What the program prints goes to stdout, errors and warnings go to stderr.
+///
+/// Outputs are written when everything has succeeded, each of them whole; a failed run writes none.
+#[derive(Debug, Args)]
+#[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
+pub struct Arguments {
+    /// The program; `-` is stdin.
+    program: PathBuf,
+    /// The mesh to begin with (.obj, .off); `-` is stdin, in either format. A program with `start` needs none.
+    #[arg(short, long, value_name = "MESH")]
+    input: Option<PathBuf>,
+    /// How often to apply the rule. Default: 1, or 0 if the program has only `start`.
+    #[arg(short = 'n', long, value_name = "STEPS")]
+    steps: Option<u64>,
+    /// The rule to apply. Default: `step`, else the program's last one.
+    #[arg(long, value_name = "NAME")]
+    rule: Option<String>,
+    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated.
+    #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
+    definitions: Vec<(String, String)>,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    importing: Importing,
+    /// Seed of `random()`.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Write counts, invariants, warnings and timings to stdout as one object; `print` then goes to stderr.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    summary: Option<SummaryFormat>,
+    /// Compare the resulting mesh (positions and faces, vertices numbered alike) or a picture of it (.png) with this
+    /// earlier one, after writing the outputs. If they differ the exit code is 5.
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// How far the reference may be off: for meshes a distance, by default 1e-9; for pictures the difference of a colour
+    /// channel from 0 to 1, by default 0.
+    #[arg(long, value_name = "X", requires = "reference", value_parser = tolerance)]
+    tolerance: Option<f64>,
+    #[command(flatten)]
+    reporting: Reporting,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SummaryFormat {
+    /// One JSON object.
+    Json,
+}
+
+/// Runs the program; `began` is when the process did.
+pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
+    let reporter = Reporter::new(arguments.reporting.diagnostic_format);
+    reporter.begin();
+    let result = run_reported(arguments, began, &reporter);
+    reporter.end();
+    result
+}
+
+fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> Result<(), Exit> {
+    check_streams(arguments, reporter)?;
+    let targets = arguments.output.targets(reporter)?;
+    let mut timings = Timings::default();
+
+    let compiling = Instant::now();
+    let (program, found) = input::program(&arguments.program, reporter)?;
+    let mut warnings = warnings_of(&found);
+    timings.compile_s = compiling.elapsed().as_secs_f64();
+
+    let (rule, steps) = plan(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
+    let params = parameters::values(&program, &arguments.definitions)
+        .or_else(|diagnostic| fail(reporter, Exit::Usage, *diagnostic))?;
+    let reference = arguments.reference.as_deref().map(|path| Reference::read(path, &arguments.importing, reporter));
+    let reference = reference.transpose()?;
+
+    let loading = Instant::now();
+    let mesh = match &arguments.input {
+        Some(path) => {
+            reporter.progress(format!("reading {}", path.display()));
+            let (mesh, found) = input::mesh(path, &arguments.importing, reporter)?;
+            warnings.extend(warnings_of(&found));
+            mesh
+        }
+        None => Mesh::new(),
+    };
+    timings.load_s = loading.elapsed().as_secs_f64();
+
+    let limits = Limits { max_vertices: arguments.importing.max_vertices, ..machine_limits() };
+    let settings = Settings { params, seed: arguments.seed, limits, stop: Stop::new() };
+    let to_stderr = arguments.output.to_stdout() || arguments.summary.is_some();
+    let mut printer = Printer::new(to_stderr, reporter);
+    let run = Run { arguments, program: &program, settings, reporter };
+    let (mesh, found) = run.generations(mesh, rule.map(|rule| (rule, steps)), &mut printer, &mut timings)?;
+    warnings.extend(found);
+    if mesh.set.is_empty() && !targets.is_empty() {
+        let diagnostic = error("the mesh has no vertices left, so there is nothing to write");
+        return fail(reporter, Exit::Program, diagnostic);
+    }
+
+    let needs_faces = !targets.is_empty() || arguments.summary.is_some() || reference.is_some();
+    let finding = Instant::now();
+    let faces =
+        if needs_faces { run.in_time("finding the faces", |stop| faces(&mesh, stop))? } else { Faces::default() };
+    timings.faces_s = finding.elapsed().as_secs_f64();
+
+    let outputs = output::prepare(&targets, arguments.output.size(), &mesh, &faces, reporter)?;
+    timings.export_s = outputs.export_s;
+    timings.render_s = outputs.render_s;
+    printer.flush(reporter)?;
+    if arguments.summary.is_some() {
+        let statistics = run.in_time("counting", |stop| statistics(&mesh, &faces, stop))?;
+        timings.total_s = began.elapsed().as_secs_f64();
+        let summary = Summary::new(statistics, warnings, timings);
+        write_stdout(info::json(&summary).as_bytes(), reporter)?;
+    }
+    output::commit(outputs.prepared, reporter)?;
+    match reference {
+        Some(reference) => reference.compare(&mesh, &faces, arguments.output.size(), arguments.tolerance, reporter),
+        None => Ok(()),
+    }
+}
+
+/// Nothing can be read or written twice.
+fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit> {
+    let from_stdin = |path: &PathBuf| files::is_standard_stream(path);
+    if from_stdin(&arguments.program) && arguments.input.as_ref().is_some_and(from_stdin) {
+        return fail(reporter, Exit::Usage, error("program and mesh cannot both be read from stdin"));
+    }
+    if arguments.summary.is_some() && arguments.output.to_stdout() {
+        return fail(reporter, Exit::Usage, error("`--summary json` and `-o -` both need stdout for themselves"));
+    }
+    Ok(())
+}
+
+/// Which rule to apply how often; `None` if the program has only `start`.
+fn plan(arguments: &Arguments, program: &Program) -> Result<(Option<FunctionId>, u64), (Exit, Box<Diagnostic>)> {
+    let name = files::shown(&arguments.program);
+    let names: Vec<_> = program.rules.iter().filter_map(|&r| program.function(r)).map(|f| f.name.as_str()).collect();
+    if names.is_empty() && program.start.is_none() {
+        let diagnostic = error(format!("{name} has nothing to run: neither a rule nor `start`"))
+            .hint("a rule is a function `void name(mesh& S) { … }` in the program's own file");
+        return Err((Exit::Program, diagnostic.into()));
+    }
+    let rule = match &arguments.rule {
+        Some(wanted) => {
+            Some(program.rule(wanted).ok_or_else(|| (Exit::Usage, unknown_rule(&name, wanted, &names).into()))?)
+        }
+        None => program.default_rule(),
+    };
+    let steps = arguments.steps.unwrap_or(u64::from(rule.is_some()));
+    if rule.is_none() && steps > 0 {
+        let diagnostic =
+            error(format!("{name} has no rule to apply {steps} times, only `start`")).hint("leave out `-n`");
+        return Err((Exit::Usage, diagnostic.into()));
+    }
+    if program.start.is_none() && arguments.input.is_none() {
+        let diagnostic = error(format!("{name} has no `start` that would make a mesh, so it needs one"))
+            .hint("add `-i MESH`, an .obj or .off file");
+        return Err((Exit::Usage, diagnostic.into()));
+    }
+    Ok((rule, steps))
+}
+
+fn unknown_rule(program: &str, wanted: &str, names: &[&str]) -> Diagnostic {
+    let diagnostic = error(format!("{program} has no rule `{wanted}`"));
+    let diagnostic = match names {
+        [] => diagnostic.evidence("it has only `start`"),
+        [name] => diagnostic.evidence(format!("its only rule is `{name}`")),
+        _ => diagnostic.evidence(format!("its rules are {}", list(names.iter().copied()))),
+    };
+    match closest(wanted, names.iter().copied()) {
+        Some(name) => diagnostic.hint(format!("did you mean `--rule {name}`?")),
+        None => diagnostic,
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
+    number.ok_or_else(|| "a tolerance is a number such as 1e-9".to_owned())
+}
+
+/// One run of a program.
+struct Run<'a> {
+    arguments: &'a Arguments,
+    program: &'a Program,
+    settings: Settings,
+    reporter: &'a Reporter,
+}
+
+impl Run<'_> {
+    /// `start` and the steps of the rule. Also returns the messages of warnings.
+    fn generations(
+        &self,
+        input: Mesh,
+        rule: Option<(FunctionId, u64)>,
+        printer: &mut Printer,
+        timings: &mut Timings,
+    ) -> Result<(Mesh, Vec<String>), Exit> {
+        let mut warnings = Vec::new();
+        let mut mesh = input;
+        if self.program.start.is_some() {
+            let first = self.generation("`start`", &mut *printer, |settings, printer| {
+                evaluation::first(self.program, &mesh, settings, printer)
+            })?;
+            warnings.extend(self.warn("`start`", &first.warnings));
+            mesh = first.mesh;
+        }
+        let Some((rule, steps)) = rule else { return Ok((mesh, warnings)) };
+        let name = self.program.function(rule).map_or("", |f| f.name.as_str());
+        for step in 1..=steps {
+            let what = format!("step {step} of {steps} of `{name}`");
+            self.reporter.progress(format!("{what}: {} vertices", mesh.set.len()));
+            let next = self.generation(&what, &mut *printer, |settings, printer| {
+                evaluation::advance(self.program, rule, &mesh, step, settings, printer)
+            })?;
+            warnings.extend(self.warn(&what, &next.warnings));
+            mesh = next.mesh;
+            timings.steps_s.push(next.step_s);
+            timings.closing_s.push(next.closing_s);
+        }
+        Ok((mesh, warnings))
+    }
+
+    /// Makes one generation in the time it has.
+    fn generation(
+        &self,
+        what: &str,
+        printer: &mut Printer,
+        make: impl FnOnce(&Settings, &mut Printer) -> Result<Generation, Failure>,
+    ) -> Result<Generation, Exit> {
+        let result = within(self.arguments.importing.timeout.0, |stop| {
+            make(&Settings { stop: stop.clone(), ..self.settings.clone() }, printer)
+        });
+        let flushed = printer.flush(self.reporter);
+        match result {
+            Err(failure) if failure.kind == FailureKind::OutputClosed => Err(flushed.err().unwrap_or(Exit::File)),
+            Err(failure) => {
+                let exit = match failure.kind {
+                    FailureKind::Program => Exit::Program,
+                    FailureKind::Budget | FailureKind::Stopped(_) => Exit::Budget,
+                    FailureKind::OutputClosed => Exit::File,
+                };
+                let mut diagnostic = failure.diagnostic.evidence(format!("this was in {what}"));
+                if let FailureKind::Stopped(_) = failure.kind {
+                    diagnostic = diagnostic.hint("allow more time with `--timeout SECONDS`");
+                }
+                self.reporter.report(&[diagnostic], &self.program.sources);
+                Err(exit)
+            }
+            Ok(generation) => flushed.map(|()| generation),
+        }
+    }
+
+    /// Reports what a step left odd and returns the messages.
+    fn warn(&self, what: &str, warnings: &[Diagnostic]) -> Vec<String> {
+        let warnings: Vec<_> = warnings
+            .iter()
+            .cloned()
+            .map(|mut warning| {
+                warning.message = format!("after {what}: {}", warning.message);
+                warning
+            })
+            .collect();
+        self.reporter.report(&warnings, &self.program.sources);
+        warnings_of(&warnings)
+    }
+
+    /// Does something in the time a step has.
+    fn in_time<T>(&self, what: &str, work: impl FnOnce(&Stop) -> Result<T, vv::stop::Stopped>) -> Result<T, Exit> {
+        self.reporter.progress(what.to_owned());
+        within(self.arguments.importing.timeout.0, work).map_err(|stopped| {
+            let diagnostic = error(stopped.to_string())
+                .evidence(format!("this was while {what}"))
+                .hint("allow more time with `--timeout SECONDS`");
+            self.reporter.report(&[diagnostic], &Sources::default());
+            Exit::Budget
+        })
+    }
+}

@@ -1,0 +1,3 @@
+//! Comparing results with earlier ones.
+
+pub mod meshes;

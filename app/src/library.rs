@@ -1,0 +1,60 @@
+//! The programs and meshes that ship with vv, in the binary.
+
+use vv::Included;
+
+/// A text that ships with vv.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shipped {
+    /// File name.
+    pub name: &'static str,
+    /// What is in it.
+    pub text: &'static str,
+}
+
+/// The programs by name.
+pub const PROGRAMS: &[Shipped] = &[
+    Shipped { name: "paper-polyhedral.vv", text: include_str!("../../assets/programs/paper-polyhedral.vv") },
+    Shipped { name: "paper-loop.vv", text: include_str!("../../assets/programs/paper-loop.vv") },
+    Shipped { name: "paper-butterfly.vv", text: include_str!("../../assets/programs/paper-butterfly.vv") },
+    Shipped { name: "paper-sqrt3.vv", text: include_str!("../../assets/programs/paper-sqrt3.vv") },
+    Shipped { name: "loop.vv", text: include_str!("../../assets/programs/loop.vv") },
+    Shipped { name: "insert.vv", text: include_str!("../../assets/programs/insert.vv") },
+];
+
+/// The meshes by name.
+pub const MESHES: &[Shipped] = &[];
+
+/// The program of a name.
+#[must_use]
+pub fn program(name: &str) -> Option<&'static Shipped> {
+    PROGRAMS.iter().find(|p| p.name == name)
+}
+
+/// The program of a name as an include; diagnostics call it `<vv>/name`.
+#[must_use]
+pub fn include(name: &str) -> Option<Included> {
+    program(name).map(|p| Included { name: format!("<vv>/{}", p.name), text: p.text.to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[track_caller]
+    fn holds_all_of(folder: &str, table: &[Shipped]) {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets").join(folder);
+        let files = std::fs::read_dir(folder).into_iter().flatten();
+        let mut files: Vec<_> = files.map(|f| f.unwrap().file_name().into_string().unwrap()).collect();
+        let mut shipped: Vec<_> = table.iter().map(|s| s.name.to_owned()).collect();
+        files.sort();
+        shipped.sort();
+        assert_eq!(shipped, files);
+    }
+
+    #[test]
+    fn every_asset_ships() {
+        holds_all_of("programs", PROGRAMS);
+        holds_all_of("meshes", MESHES);
+    }
+}
