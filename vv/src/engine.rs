@@ -4,6 +4,7 @@
 //! ([`crate::mesh::close`]). If it fails the copy is dropped, so a failed step leaves the mesh as it was.
 
 mod interpret;
+mod text;
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::{FunctionId, GlobalId, Program};

@@ -21,6 +21,8 @@
 //! properties and edge values. The copy belongs to the vertex: the last `synchronize` that covered it wins. None
 //! outlives the step. Reading an old value that is not there is an error.
 
+pub mod arithmetic;
+
 use std::sync::Arc;
 
 use crate::builtins::Builtin;

@@ -40,6 +40,11 @@ impl VertexSet {
         self.0.order.capacity() * 4 + self.0.places.as_ref().map_or(0, |p| p.capacity() * 9)
     }
 
+    /// The same for two sets that share their members, and different for two that hold memory of their own.
+    pub(crate) fn identity(&self) -> usize {
+        Arc::as_ptr(&self.0) as usize
+    }
+
     /// `is v in S`: O(1) or a binary search.
     #[must_use]
     pub fn contains(&self, v: Vertex) -> bool {

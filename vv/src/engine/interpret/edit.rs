@@ -1,0 +1,107 @@
+//! Edits of rings.
+
+use super::fault::{Fault, Run};
+use super::{FailureKind, Machine};
+use crate::ir::{Expr, Item, Side};
+use crate::mesh::{EditError, Vertex};
+use crate::source::Span;
+
+const NO_RING: &str = "null has no neighbours";
+
+impl<'a> Machine<'a> {
+    pub(super) fn make(&mut self, items: &'a [Item], of: &'a Expr, span: Span) -> Run<()> {
+        // An item may call a function that makes.
+        let mut list = std::mem::take(&mut self.items);
+        list.clear();
+        for item in items {
+            list.push(self.put(item)?);
+        }
+        let v = self.not_null(of, NO_RING)?;
+        self.account(8 * list.len(), span)?;
+        if let Err(error) = self.mesh.make(v, &list) {
+            return Err(self.fail_to_make(error, v, items, &list, span));
+        }
+        self.items = list;
+        Ok(())
+    }
+
+    pub(super) fn erase(&mut self, item: &'a Item, from: &'a Expr) -> Run<()> {
+        let x = self.sought(item)?;
+        let v = self.not_null(from, NO_RING)?;
+        self.mesh.erase(x, v);
+        Ok(())
+    }
+
+    pub(super) fn replace(&mut self, item: &'a Item, with: &'a Item, ring: &'a Expr, span: Span) -> Run<()> {
+        let a = self.sought(item)?;
+        let x = self.put(with)?;
+        let v = self.not_null(ring, NO_RING)?;
+        self.mesh.replace(a, x, v).map_err(|error| self.fail_to_edit(error, v, x, item_span(with, span)))
+    }
+
+    pub(super) fn splice(
+        &mut self,
+        item: &'a Item,
+        side: Side,
+        anchor: &'a Item,
+        ring: &'a Expr,
+        span: Span,
+    ) -> Run<()> {
+        let x = self.put(item)?;
+        let a = self.sought(anchor)?;
+        let v = self.not_null(ring, NO_RING)?;
+        // A ring that outgrows its room moves to one of twice the size.
+        self.account(16, span)?;
+        let result = match side {
+            Side::After => self.mesh.splice_after(x, a, v),
+            Side::Before => self.mesh.splice_before(x, a, v),
+        };
+        result.map_err(|error| self.fail_to_edit(error, v, x, item_span(item, span)))
+    }
+
+    #[cold]
+    fn fail_to_make(
+        &self,
+        error: EditError,
+        v: Vertex,
+        items: &[Item],
+        list: &[Option<Vertex>],
+        span: Span,
+    ) -> Box<Fault> {
+        let (culprit, message) = match error {
+            EditError::OwnNeighbour(v) => (v, error.to_string()),
+            EditError::Twice(x) => (x, format!("{x} is listed twice")),
+            EditError::Full(_) => return self.fail_with(FailureKind::Budget, span, error.to_string()),
+        };
+        let mut places =
+            items.iter().zip(list).filter(|(_, x)| **x == Some(culprit)).map(|(item, _)| item_span(item, span));
+        let first = places.next();
+        let second = places.next();
+        let mut fault = self.fail(second.or(first).unwrap_or(span), message);
+        if let (Some(first), Some(_)) = (first, second) {
+            fault = fault.label(first, format!("{culprit} here too"));
+        }
+        let listed: Vec<_> = list.iter().map(|x| x.map_or("∅".to_owned(), |x| x.to_string())).collect();
+        fault
+            .evidence(format!("to be made the ring of {v}: {}", listed.join(" ")))
+            .evidence(self.ring_evidence(v, Some(culprit)))
+            .about([v, culprit])
+    }
+
+    #[cold]
+    fn fail_to_edit(&self, error: EditError, v: Vertex, x: Option<Vertex>, span: Span) -> Box<Fault> {
+        let message = match error {
+            EditError::OwnNeighbour(_) => error.to_string(),
+            EditError::Twice(x) => format!("{x} stands in the ring of {v} already"),
+            EditError::Full(_) => return self.fail_with(FailureKind::Budget, span, error.to_string()),
+        };
+        self.fail(span, message).evidence(self.ring_evidence(v, x)).about(std::iter::once(v).chain(x))
+    }
+}
+
+fn item_span(item: &Item, otherwise: Span) -> Span {
+    match item {
+        Item::Gap(_) => otherwise,
+        Item::Vertex(e) => e.span,
+    }
+}
