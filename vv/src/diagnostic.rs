@@ -1,5 +1,8 @@
 //! What is said to the user: one sentence at a place, with evidence and, where it can be guessed, a fix.
 
+mod human;
+mod machine;
+
 use crate::mesh::Vertex;
 use crate::source::Span;
 
@@ -123,8 +126,12 @@ pub enum Form {
     Json,
 }
 
-/// Writes diagnostics out, each ended by a line end.
+/// Writes diagnostics out, each ended by a line end. Places outside the texts are left out.
 #[must_use]
-pub fn render(_diagnostics: &[Diagnostic], _sources: &crate::source::Sources, _form: Form) -> String {
-    String::new()
+pub fn render(diagnostics: &[Diagnostic], sources: &crate::source::Sources, form: Form) -> String {
+    match form {
+        Form::Human { color } => human::render(diagnostics, sources, color),
+        Form::Short => diagnostics.iter().map(|d| machine::short(d, sources)).collect(),
+        Form::Json => diagnostics.iter().map(|d| machine::json(d, sources)).collect(),
+    }
 }

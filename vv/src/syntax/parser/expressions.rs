@@ -1,0 +1,643 @@
+//! Expressions: operators by precedence, and the queries of the algebra.
+
+use super::super::lexer::Kind;
+use super::super::tree::{BinaryOp, Expr, ExprKind, Name, Step, StepPosition, UnaryOp};
+use super::super::words;
+use super::{Parser, Role, Tall, grow};
+use crate::diagnostic::Diagnostic;
+use crate::source::Span;
+
+/// Operators between operands, the loosest first; all of them group from the left.
+#[rustfmt::skip]
+const BINARY: &[(Kind, BinaryOp, u8)] = &[
+    (Kind::Or,           BinaryOp::Or,           1),
+    (Kind::And,          BinaryOp::And,          2),
+    (Kind::Equal,        BinaryOp::Equal,        3),
+    (Kind::NotEqual,     BinaryOp::NotEqual,     3),
+    (Kind::Less,         BinaryOp::Less,         4),
+    (Kind::LessEqual,    BinaryOp::LessEqual,    4),
+    (Kind::Greater,      BinaryOp::Greater,      4),
+    (Kind::GreaterEqual, BinaryOp::GreaterEqual, 4),
+    (Kind::Plus,         BinaryOp::Add,          5),
+    (Kind::Minus,        BinaryOp::Subtract,     5),
+    (Kind::Star,         BinaryOp::Multiply,     6),
+    (Kind::Slash,        BinaryOp::Divide,       6),
+    (Kind::Percent,      BinaryOp::Remainder,    6),
+];
+
+/// Precedence of `<` and its like.
+const COMPARISON: u8 = 4;
+
+/// Operators that store, each with the operator it applies first.
+#[rustfmt::skip]
+const ASSIGNMENT: &[(Kind, Option<BinaryOp>)] = &[
+    (Kind::Assign,          None),
+    (Kind::AddAssign,       Some(BinaryOp::Add)),
+    (Kind::SubtractAssign,  Some(BinaryOp::Subtract)),
+    (Kind::MultiplyAssign,  Some(BinaryOp::Multiply)),
+    (Kind::DivideAssign,    Some(BinaryOp::Divide)),
+    (Kind::RemainderAssign, Some(BinaryOp::Remainder)),
+];
+
+impl Parser<'_> {
+    /// Any expression, assignments among them.
+    pub(super) fn expression(&mut self) -> Expr {
+        self.assignment().expr
+    }
+
+    /// An operand of the algebra: what stands behind `in`, `after`, `with`, ….
+    pub(super) fn operand(&mut self) -> Expr {
+        self.unary().expr
+    }
+
+    /// An expression that is no assignment, as where `in` or `,` follows.
+    pub(super) fn value(&mut self) -> Expr {
+        self.conditional().expr
+    }
+
+    /// Expressions with commas between, up to `close`, which is left.
+    pub(super) fn list(&mut self, close: Kind) -> (Vec<Expr>, u32) {
+        let mut list = Vec::new();
+        let mut height = 0;
+        if self.kind() == close {
+            return (list, height);
+        }
+        loop {
+            let item = self.assignment();
+            height = height.max(item.height);
+            list.push(item.expr);
+            if !self.eat(Kind::Comma) {
+                return (list, height);
+            }
+        }
+    }
+
+    /// The second operand of a word of the algebra such as `nextto left word operand`. Mends `Swith`, `withT`, and a
+    /// word that is nearly the right one.
+    pub(super) fn second(&mut self, left: &mut Tall, word: &'static str, form: &str) -> Tall {
+        if self.panicking {
+            return self.error_expression();
+        }
+        if self.at_infix(word) {
+            self.take_infix();
+            return self.unary();
+        }
+        // `is any in S`, where `any` is a variable after all.
+        if word == "in"
+            && let ExprKind::Any { ring } = &mut left.expr.kind
+        {
+            let ring = std::mem::replace(&mut **ring, Expr { kind: ExprKind::Error, span: left.expr.span });
+            let span = Span { end: left.expr.span.start + 3, ..left.expr.span };
+            left.expr = Expr { kind: ExprKind::Name("any".to_owned()), span };
+            return Tall { expr: ring, height: left.height };
+        }
+        let here = self.here();
+        if let ExprKind::Name(name) = &mut left.expr.kind
+            && let Some(rest) = name.strip_suffix(word).filter(|rest| !rest.is_empty())
+            && self.operand_at(self.at)
+        {
+            let rest = rest.to_owned();
+            let glued = left.expr.span;
+            self.mend(Diagnostic::error(glued, format!("expected `{word}`: a space is missing in `{name}`")).fix(
+                format!("write `{rest} {word}`"),
+                glued,
+                format!("{rest} {word}"),
+            ));
+            left.expr.span.end -= word.len() as u32;
+            *name = rest;
+            return self.unary();
+        }
+        let found = self.word();
+        if let Some(rest) = found.strip_prefix(word).filter(|rest| !rest.is_empty()) {
+            self.mend(Diagnostic::error(here, format!("expected `{word}`: a space is missing in `{found}`")).fix(
+                format!("write `{word} {rest}`"),
+                here,
+                format!("{word} {rest}"),
+            ));
+            self.bump();
+            let name = Span { start: here.start + word.len() as u32, ..here };
+            let name = self.tall(ExprKind::Name(rest.to_owned()), name, 0);
+            return self.postfix(name, false);
+        }
+        let nearly = words::is_infix(found)
+            || matches!(found, "and" | "by" | "of" | "into" | "on" | "at" | "nbof")
+            || words::similar(found, [word]).is_some();
+        let behind = self.at + 1;
+        if nearly && self.operand_at(behind) && !self.token(behind).new_line {
+            self.mend(Diagnostic::error(here, format!("expected `{word}`, found `{found}`")).fix(
+                format!("write {form}"),
+                here,
+                word,
+            ));
+            self.bump();
+            return self.unary();
+        }
+        if self.kind() == Kind::Word {
+            let known = words::PREFIXES.iter().chain(words::STATEMENTS).copied();
+            let earlier = self.word_at(self.at.saturating_sub(1));
+            if words::similar(earlier, known).is_some() {
+                self.unexpected(&format!("`{word}`"));
+                return self.error_expression();
+            }
+        }
+        let message = format!("expected `{word}`, found {}", self.found());
+        self.fail(Diagnostic::error(here, message).hint(format!("write {form}")));
+        self.error_expression()
+    }
+
+    /// Whether a word between operands stands here; `nb of` is `nb_of`.
+    fn at_infix(&self, word: &str) -> bool {
+        self.word() == word || (word == "nb_of" && self.word() == "nb" && self.word_at(self.at + 1) == "of")
+    }
+
+    fn take_infix(&mut self) {
+        let two = self.word() == "nb";
+        self.bump_as(Role::Algebra);
+        if two {
+            self.bump_as(Role::Algebra);
+        }
+    }
+
+    fn assignment(&mut self) -> Tall {
+        if self.panicking || !self.enter() {
+            return self.error_expression();
+        }
+        let result = grow(|| self.assignment_inside());
+        self.leave();
+        result
+    }
+
+    fn assignment_inside(&mut self) -> Tall {
+        let left = self.conditional();
+        let operator = ASSIGNMENT.iter().find(|(kind, _)| *kind == self.kind());
+        let Some(&(_, op)) = operator.filter(|_| !self.panicking) else { return left };
+        self.bump();
+        let value = self.assignment();
+        let span = left.expr.span.to(value.expr.span);
+        let height = left.height.max(value.height);
+        self.tall(ExprKind::Assign { op, target: Box::new(left.expr), value: Box::new(value.expr) }, span, height)
+    }
+
+    fn conditional(&mut self) -> Tall {
+        let condition = self.binary(0);
+        if !self.eat(Kind::Question) {
+            return condition;
+        }
+        let then = self.assignment();
+        if !self.eat(Kind::Colon) && !self.panicking {
+            self.unexpected("`:` of the `? :`");
+        }
+        let otherwise = self.assignment();
+        let span = condition.expr.span.to(otherwise.expr.span);
+        let height = condition.height.max(then.height).max(otherwise.height);
+        let (condition, then, otherwise) = (Box::new(condition.expr), Box::new(then.expr), Box::new(otherwise.expr));
+        self.tall(ExprKind::Conditional { condition, then, otherwise }, span, height)
+    }
+
+    /// Operators that bind tighter than `loosest`.
+    fn binary(&mut self, loosest: u8) -> Tall {
+        let mut left = self.unary();
+        let mut compared = false;
+        while !self.panicking {
+            let Some((op, precedence)) = self.binary_operator().filter(|&(_, precedence)| precedence > loosest) else {
+                break;
+            };
+            let sign = self.here();
+            if compared && precedence == COMPARISON {
+                self.mend(Diagnostic::error(sign, "comparisons cannot be chained").hint("write `a < b && b < c`"));
+            }
+            compared = precedence == COMPARISON;
+            self.bump();
+            let right = self.binary(precedence);
+            let span = left.expr.span.to(right.expr.span);
+            let height = left.height.max(right.height);
+            left = self.tall(
+                ExprKind::Binary { op, left: Box::new(left.expr), right: Box::new(right.expr) },
+                span,
+                height,
+            );
+        }
+        left
+    }
+
+    /// The operator that stands here. `and` and `or` are understood.
+    fn binary_operator(&mut self) -> Option<(BinaryOp, u8)> {
+        let spelled = match self.word() {
+            "and" => Some(("&&", BinaryOp::And, 2)),
+            "or" => Some(("||", BinaryOp::Or, 1)),
+            _ => None,
+        };
+        if let Some((sign, op, precedence)) = spelled.filter(|_| self.operand_at(self.at + 1)) {
+            let here = self.here();
+            // An outer level may look at the same word again.
+            if self.diagnostics.last().is_none_or(|d| d.span != Some(here)) {
+                let message = format!("expected an operator, found `{}`", self.word());
+                self.mend(Diagnostic::error(here, message).fix(format!("write `{sign}`"), here, sign));
+            }
+            return Some((op, precedence));
+        }
+        let kind = self.kind();
+        BINARY.iter().find(|(k, ..)| *k == kind).map(|&(_, op, precedence)| (op, precedence))
+    }
+
+    pub(super) fn unary(&mut self) -> Tall {
+        self.unary_before(false)
+    }
+
+    /// `before_body`: the body of a `forall` follows without braces, so `(` and `++` may belong to it.
+    fn unary_before(&mut self, before_body: bool) -> Tall {
+        if self.panicking {
+            return self.error_expression();
+        }
+        let start = self.at;
+        match self.kind() {
+            Kind::Minus => self.prefix(start, |operand| ExprKind::Unary { op: UnaryOp::Minus, operand }),
+            Kind::Plus => self.prefix(start, |operand| ExprKind::Unary { op: UnaryOp::Plus, operand }),
+            Kind::Not => self.prefix(start, |operand| ExprKind::Unary { op: UnaryOp::Not, operand }),
+            Kind::PlusPlus => {
+                self.prefix(start, |target| ExprKind::Step { target, by: Step::Up, position: StepPosition::Before })
+            }
+            Kind::MinusMinus => {
+                self.prefix(start, |target| ExprKind::Step { target, by: Step::Down, position: StepPosition::Before })
+            }
+            Kind::Word => self.query(before_body),
+            _ => {
+                let primary = self.primary();
+                self.postfix(primary, before_body)
+            }
+        }
+    }
+
+    fn prefix(&mut self, start: usize, build: impl FnOnce(Box<Expr>) -> ExprKind) -> Tall {
+        if !self.enter() {
+            return self.error_expression();
+        }
+        self.bump();
+        let operand = self.unary();
+        self.leave();
+        let span = self.span_at(start).to(operand.expr.span);
+        self.tall(build(Box::new(operand.expr)), span, operand.height)
+    }
+
+    /// The set or ring of a `forall`.
+    pub(super) fn over(&mut self) -> Expr {
+        self.unary_before(true).expr
+    }
+
+    /// The queries of the algebra, and what else begins with a word.
+    fn query(&mut self, before_body: bool) -> Tall {
+        let start = self.at;
+        let mut word = self.word();
+        if !words::PREFIXES.contains(&word) && self.begins_operation(start) && !self.token(start + 1).new_line {
+            // `nextot q in p`: nothing else makes sense.
+            let is_call = self.kind_at(start + 1) == Kind::OpenParen;
+            if !is_call && let Some(meant) = words::similar(word, words::PREFIXES.iter().copied()) {
+                let here = self.here();
+                let message = format!("unknown word `{word}`");
+                self.mend(Diagnostic::error(here, message).fix(format!("did you mean `{meant}`?"), here, meant));
+                word = meant;
+            }
+        }
+        let applies = if word == "any" {
+            self.word_at(start + 1) == "in" && self.operand_at(start + 2)
+        } else {
+            words::PREFIXES.contains(&word) && self.begins_operation(start)
+        };
+        if !applies {
+            let primary = self.primary();
+            return self.postfix(primary, before_body);
+        }
+        if !self.enter() {
+            return self.error_expression();
+        }
+        self.bump_as(Role::Algebra);
+        let result = self.operation(start, word, before_body);
+        self.leave();
+        result
+    }
+
+    /// What stands behind a word of the algebra such as `nextto`.
+    fn operation(&mut self, start: usize, word: &str, before_body: bool) -> Tall {
+        let begin = self.span_at(start);
+        match word {
+            "any" => {
+                self.bump_as(Role::Algebra);
+                let ring = self.unary_before(before_body);
+                let span = begin.to(ring.expr.span);
+                self.tall(ExprKind::Any { ring: Box::new(ring.expr) }, span, ring.height)
+            }
+            "valence" | "gaps" => {
+                let ring = self.unary_before(before_body);
+                let span = begin.to(ring.expr.span);
+                let (height, ring) = (ring.height, Box::new(ring.expr));
+                let kind = if word == "gaps" { ExprKind::Gaps { ring } } else { ExprKind::Valence { ring } };
+                self.tall(kind, span, height)
+            }
+            _ => {
+                let mut item = self.unary();
+                let ring = self.second(&mut item, "in", &format!("`{word} x in v`"));
+                let span = begin.to(ring.expr.span);
+                let height = item.height.max(ring.height);
+                let (item, ring) = (Box::new(item.expr), Box::new(ring.expr));
+                let kind = match word {
+                    "nextto" => ExprKind::Next { item, ring },
+                    "prevto" => ExprKind::Previous { item, ring },
+                    _ => ExprKind::Is { item, of: ring },
+                };
+                self.tall(kind, span, height)
+            }
+        }
+    }
+
+    /// Whether an operand follows the word at a token. A word such as `in` is one only before another such word.
+    pub(super) fn begins_operation(&self, at: usize) -> bool {
+        self.operand_at(at + 1) && (!words::is_infix(self.word_at(at + 1)) || words::is_infix(self.word_at(at + 2)))
+    }
+
+    fn primary(&mut self) -> Tall {
+        if self.panicking {
+            return self.error_expression();
+        }
+        let span = self.here();
+        match self.kind() {
+            Kind::Int | Kind::Double => self.number(),
+            Kind::Text => {
+                let text = unescape(self.text_at(self.at));
+                self.bump();
+                let text = match text {
+                    Ok(text) => text,
+                    Err(unknown) => {
+                        let message = format!("unknown escape `\\{}` in a string", unknown.escape_debug());
+                        self.mend(Diagnostic::error(span, message).hint("known are `\\n`, `\\t`, `\\\"` and `\\\\`"));
+                        String::new()
+                    }
+                };
+                self.tall(ExprKind::Text(text), span, 0)
+            }
+            Kind::Old => self.old(),
+            Kind::OpenParen => self.parentheses(),
+            Kind::Word => self.name_or_call(),
+            _ => {
+                self.unexpected("a value");
+                self.error_expression()
+            }
+        }
+    }
+
+    fn number(&mut self) -> Tall {
+        let span = self.here();
+        let is_int = self.kind() == Kind::Int;
+        let text = self.text_at(self.at).replace(['−', '–'], "-");
+        self.bump();
+        let kind = if is_int {
+            ExprKind::Int(text.parse().unwrap_or_else(|_| {
+                let message = format!("this number is too large for `int`, which ends at {}", i64::MAX);
+                self.mend(Diagnostic::error(span, message).fix("write a `double`", span, format!("{text}.0")));
+                0
+            }))
+        } else {
+            let value: f64 = text.parse().unwrap_or(f64::INFINITY);
+            if value.is_infinite() {
+                self.mend(Diagnostic::error(span, "this number is too large for `double`"));
+            }
+            ExprKind::Double(if value.is_infinite() { 0.0 } else { value })
+        };
+        self.tall(kind, span, 0)
+    }
+
+    /// `` `v ``, `` `(…) ``
+    fn old(&mut self) -> Tall {
+        let start = self.at;
+        self.bump();
+        let of = match self.kind() {
+            Kind::OpenParen => self.parentheses(),
+            Kind::Word if !words::is_reserved(self.word()) => {
+                let span = self.here();
+                let name = self.word().to_owned();
+                self.bump();
+                self.tall(ExprKind::Name(name), span, 0)
+            }
+            _ => {
+                let diagnostic = Diagnostic::error(
+                    self.here(),
+                    format!("expected a name or `(` after the old-value mark, found {}", self.found()),
+                );
+                self.fail(diagnostic.hint("write `` `v$pos `` or `` `(nextto q in `p)$pos ``"));
+                self.error_expression()
+            }
+        };
+        if self.kind() == Kind::Old && !self.panicking && self.token(self.at).start == self.previous().end {
+            let quoted = self.since(start).to(self.here());
+            let text = self.source(self.previous()).to_owned();
+            let message = "vv has no character literals; this sign marks old values";
+            self.fail(Diagnostic::error(quoted, message).fix("write a string", quoted, format!("\"{text}\"")));
+            self.bump();
+        }
+        let span = self.span_at(start).to(of.expr.span);
+        self.tall(ExprKind::Old(Box::new(of.expr)), span, of.height)
+    }
+
+    /// `(inner)`, `(p|q)`, and the casts of C, which are understood.
+    fn parentheses(&mut self) -> Tall {
+        let open = self.at;
+        self.bump();
+        if words::reserved_type(self.word()).is_some() && self.kind_at(self.at + 1) == Kind::CloseParen {
+            return self.cast(open);
+        }
+        let inner = self.assignment();
+        let second = self.eat(Kind::Bar).then(|| self.assignment());
+        self.close(Kind::CloseParen, open);
+        let span = self.since(open);
+        match second {
+            Some(second) => {
+                let height = inner.height.max(second.height);
+                self.tall(ExprKind::Edge(Box::new(inner.expr), Box::new(second.expr)), span, height)
+            }
+            None => self.tall(ExprKind::Paren(Box::new(inner.expr)), span, inner.height),
+        }
+    }
+
+    /// `(double)n`, meant as `double(n)`.
+    fn cast(&mut self, open: usize) -> Tall {
+        let to = self.word();
+        let callee = Name { text: to.to_owned(), span: self.here() };
+        self.bump_as(Role::Type);
+        self.bump();
+        let operand = self.unary();
+        let span = self.span_at(open).to(operand.expr.span);
+        let text = self.source(operand.expr.span);
+        let text = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')).unwrap_or(text);
+        let mended = format!("{to}({text})");
+        self.mend(Diagnostic::error(span, "vv converts as a call does, not by a cast").fix(
+            format!("write `{}`", super::shorten(&mended)),
+            span,
+            mended,
+        ));
+        let height = operand.height;
+        self.tall(ExprKind::Call { callee, arguments: vec![operand.expr] }, span, height)
+    }
+
+    fn name_or_call(&mut self) -> Tall {
+        let start = self.at;
+        let span = self.here();
+        let word = self.word();
+        match word {
+            "true" | "false" => {
+                self.bump();
+                return self.tall(ExprKind::Bool(word == "true"), span, 0);
+            }
+            "null" => {
+                self.bump();
+                return self.tall(ExprKind::Null, span, 0);
+            }
+            "nullptr" | "NULL" => {
+                self.mend(Diagnostic::error(span, format!("`{word}` is `null` in vv")).fix(
+                    "write `null`",
+                    span,
+                    "null",
+                ));
+                self.bump();
+                return self.tall(ExprKind::Null, span, 0);
+            }
+            "not" if self.operand_at(start + 1) => {
+                self.mend(Diagnostic::error(span, "unknown word `not`").fix("write `!`", span, "!"));
+                return self.prefix(start, |operand| ExprKind::Unary { op: UnaryOp::Not, operand });
+            }
+            _ => {}
+        }
+        if self.kind_at(start + 1) == Kind::DoubleColon {
+            let qualifier = span.to(self.span_at(start + 1));
+            let message = "vv has no namespaces: its functions are there without a prefix";
+            self.mend(Diagnostic::error(qualifier, message).fix("leave it out", qualifier, ""));
+            self.bump();
+            self.bump();
+            return if self.kind() == Kind::Word && self.kind_at(self.at + 1) != Kind::DoubleColon {
+                self.name_or_call()
+            } else {
+                self.unexpected("a name");
+                self.error_expression()
+            };
+        }
+        let is_call = self.kind_at(start + 1) == Kind::OpenParen;
+        let converts = is_call && words::reserved_type(word).is_some();
+        if words::is_reserved(word) && !converts {
+            self.unexpected("a value");
+            return self.error_expression();
+        }
+        let follows = self.operand_at(start + 1) && !words::is_infix(self.word_at(start + 1));
+        if words::is_infix(word) && follows && !is_call {
+            let message = format!("expected a value before `{word}`");
+            self.fail(Diagnostic::error(span, message));
+            return self.error_expression();
+        }
+        if converts || (is_call && words::any_type(word).is_some()) {
+            self.bump_as(Role::Type);
+        } else {
+            self.bump();
+        }
+        self.tall(ExprKind::Name(word.to_owned()), span, 0)
+    }
+
+    /// What may follow an operand: calls, `$name`, `.name`, `++`, `--`.
+    fn postfix(&mut self, mut of: Tall, before_body: bool) -> Tall {
+        let begin = of.expr.span;
+        while !self.panicking {
+            let here = self.here();
+            let start = self.at;
+            match self.kind() {
+                Kind::OpenParen => {
+                    let ExprKind::Name(callee) = &of.expr.kind else { return of };
+                    if before_body && self.edge_at(start) {
+                        return of;
+                    }
+                    let callee = Name { text: callee.clone(), span: of.expr.span };
+                    self.bump();
+                    let (arguments, height) = self.list(Kind::CloseParen);
+                    self.close(Kind::CloseParen, start);
+                    let span = begin.to(self.previous());
+                    of = self.tall(ExprKind::Call { callee, arguments }, span, height);
+                }
+                Kind::Dollar | Kind::Dot => {
+                    let dollar = self.kind() == Kind::Dollar;
+                    self.bump();
+                    let name = Name { text: self.word().to_owned(), span: self.here() };
+                    if name.text.is_empty() {
+                        self.unexpected(if dollar { "the name of a property after `$`" } else { "`x`, `y` or `z`" });
+                        return of;
+                    }
+                    self.bump();
+                    let (span, height) = (begin.to(name.span), of.height);
+                    let of_box = Box::new(of.expr);
+                    let kind = if dollar {
+                        ExprKind::Property { of: of_box, name }
+                    } else {
+                        ExprKind::Field { of: of_box, name }
+                    };
+                    of = self.tall(kind, span, height);
+                }
+                Kind::Arrow if self.kind_at(start + 1) == Kind::Word => {
+                    let message = "vv has no pointers, so no `->`";
+                    self.mend(Diagnostic::error(here, message).fix("properties are written `v$name`", here, "$"));
+                    self.bump();
+                    let name = Name { text: self.word().to_owned(), span: self.here() };
+                    self.bump();
+                    let (span, height) = (begin.to(name.span), of.height);
+                    of = self.tall(ExprKind::Property { of: Box::new(of.expr), name }, span, height);
+                }
+                Kind::PlusPlus | Kind::MinusMinus if !before_body && !self.token(start).new_line => {
+                    let by = if self.kind() == Kind::PlusPlus { Step::Up } else { Step::Down };
+                    self.bump();
+                    let (span, height) = (begin.to(here), of.height);
+                    let target = Box::new(of.expr);
+                    of = self.tall(ExprKind::Step { target, by, position: StepPosition::After }, span, height);
+                }
+                Kind::OpenBracket => {
+                    self.unexpected("an operator");
+                    return of;
+                }
+                _ => return of,
+            }
+        }
+        of
+    }
+
+    /// Whether `(p|q)` begins at a token.
+    pub(super) fn edge_at(&self, open: usize) -> bool {
+        let end = self.behind_parentheses(open).unwrap_or(open);
+        let mut depth = 0;
+        (open..end).any(|at| {
+            match self.kind_at(at) {
+                Kind::OpenParen => depth += 1,
+                Kind::CloseParen => depth -= 1,
+                _ => {}
+            }
+            depth == 1 && self.kind_at(at) == Kind::Bar
+        })
+    }
+}
+
+/// The text of a literal without its quotes, escapes resolved; the character of an unknown escape otherwise.
+fn unescape(literal: &str) -> Result<String, char> {
+    let quote = |c: char| matches!(c, '"' | '“' | '”');
+    let inner = literal.strip_prefix(quote).unwrap_or(literal);
+    let mut text = String::with_capacity(inner.len());
+    let mut characters = inner.chars().peekable();
+    while let Some(c) = characters.next() {
+        match c {
+            '\\' => match characters.next() {
+                Some('n') => text.push('\n'),
+                Some('t') => text.push('\t'),
+                Some('r') => text.push('\r'),
+                Some('0') => text.push('\0'),
+                Some(c @ ('\\' | '\'')) => text.push(c),
+                Some(c) if quote(c) => text.push(c),
+                Some(c) => return Err(c),
+                None => {}
+            },
+            // Only the closing quote is left bare.
+            c if quote(c) && characters.peek().is_none() => {}
+            c => text.push(c),
+        }
+    }
+    Ok(text)
+}
