@@ -1,10 +1,36 @@
 //! What to draw of a mesh: triangles, lines, points. No GPU; built on the worker's thread.
+//!
+//! Positions become `f32` only after the centre of the mesh was taken away and its size was divided out, so that a
+//! mesh far from the origin, or one a nanometre or a light year wide, is drawn as precisely as any other:
+//!
+//! ```text
+//!   scene = (world − origin) / unit      unit a power of two, so that dividing is exact
+//! ```
+
+mod part;
+mod triangulate;
+
+use glam::{DVec3, Vec3};
 
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 
-/// How a mesh is drawn. The same for window and headless pictures.
+pub use part::{Corner, Part};
+
+/// Light or dark surroundings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Theme {
+    /// Bright paper: for print and bright windows.
+    #[default]
+    Light,
+    /// For dark windows.
+    Dark,
+}
+
+/// How a mesh is drawn. The same for window and headless pictures. Lengths are in points, which the scale factor of a
+/// screen turns into pixels.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
 pub struct Style {
     /// Fill the faces.
     pub faces: bool,
@@ -16,23 +42,152 @@ pub struct Style {
     pub vertices: bool,
     /// Superimpose the control mesh's edges and vertices.
     pub control: bool,
+    /// Colours.
+    pub theme: Theme,
+    /// Leave the background transparent.
+    pub transparent: bool,
+    /// Width of edges between two faces; edges of the boundary are drawn wider in proportion.
+    pub edge_width: f32,
+    /// Diameter of vertices.
+    pub vertex_size: f32,
 }
 
 impl Default for Style {
     fn default() -> Self {
-        Self { faces: true, smooth: false, edges: true, vertices: false, control: false }
+        Self {
+            faces: true,
+            smooth: false,
+            edges: true,
+            vertices: false,
+            control: false,
+            theme: Theme::Light,
+            transparent: false,
+            edge_width: 1.2,
+            vertex_size: 6.0,
+        }
     }
+}
+
+/// A ball around everything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sphere {
+    /// Its centre in world units.
+    pub center: DVec3,
+    /// Its radius in world units; 0 for a single point and for nothing.
+    pub radius: f64,
 }
 
 /// Everything to draw, in arrays ready for the GPU. Immutable; what [`Style`] switches on and off is decided when
 /// drawing, so a change of style needs no new scene.
-#[derive(Debug, Clone, Default)]
-pub struct Scene {}
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// World position of the scene's zero.
+    pub origin: DVec3,
+    /// World length of the scene's one; a power of two.
+    pub unit: f64,
+    /// The mesh.
+    pub mesh: Part,
+    /// The control mesh, without triangles.
+    pub control: Part,
+    bounds: Sphere,
+    bounds_with_control: Sphere,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        let bounds = Sphere { center: DVec3::ZERO, radius: 0.0 };
+        Self {
+            origin: DVec3::ZERO,
+            unit: 1.0,
+            mesh: Part::default(),
+            control: Part::default(),
+            bounds,
+            bounds_with_control: bounds,
+        }
+    }
+}
 
 impl Scene {
     /// Of a mesh and its faces, with the control mesh it came from.
+    ///
+    /// The whole universe of the mesh is drawn. Vertices whose position is not finite, or so far away (10¹⁵⁰) that
+    /// lengths overflow, are left out together with their faces and edges; all others stay. Linear in the size of the
+    /// mesh, but for concave polygons with many corners.
     #[must_use]
-    pub fn new(_mesh: &Mesh, _faces: &Faces, _control: Option<(&Mesh, &Faces)>) -> Self {
-        Self {}
+    pub fn new(mesh: &Mesh, faces: &Faces, control: Option<(&Mesh, &Faces)>) -> Self {
+        let own = Extent::of(mesh.positions());
+        let all = match control {
+            Some((control, _)) => own.and(Extent::of(control.positions())),
+            None => own,
+        };
+        let bounds = own.sphere(&[mesh]);
+        let bounds_with_control = match control {
+            Some((control, _)) => all.sphere(&[mesh, control]),
+            None => bounds,
+        };
+        let origin = bounds.center;
+        let unit = power_of_two(bounds.radius);
+        let to_scene = |p: DVec3| usable(p).then(|| (p - origin) / unit);
+        Self {
+            origin,
+            unit,
+            mesh: Part::new(mesh, faces, &to_scene, part::Fill::Faces),
+            control: control.map_or_else(Part::default, |(m, f)| Part::new(m, f, &to_scene, part::Fill::Nothing)),
+            bounds,
+            bounds_with_control,
+        }
+    }
+
+    /// A ball around what `style` shows.
+    #[must_use]
+    pub fn bounds(&self, style: &Style) -> Sphere {
+        if style.control { self.bounds_with_control } else { self.bounds }
+    }
+
+    /// World position of a point of the scene.
+    #[must_use]
+    pub fn to_world(&self, p: Vec3) -> DVec3 {
+        self.origin + self.unit * p.as_dvec3()
+    }
+}
+
+/// Beyond this, squares and products of lengths overflow.
+const FARTHEST: f64 = 1e150;
+
+fn usable(p: DVec3) -> bool {
+    p.abs().max_element() < FARTHEST && !p.is_nan()
+}
+
+/// The largest power of two up to `length`, so that lengths divided by it lie around 1; 1 for a length of 0.
+fn power_of_two(length: f64) -> f64 {
+    if length > 0.0 { length.max(f64::MIN_POSITIVE).log2().floor().exp2() } else { 1.0 }
+}
+
+/// The box around some points; `low > high` while there is none.
+#[derive(Clone, Copy)]
+struct Extent {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Extent {
+    fn of(points: &[DVec3]) -> Self {
+        let none = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        points.iter().filter(|p| usable(**p)).fold(none, |e, &p| Self { low: e.low.min(p), high: e.high.max(p) })
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// The ball around the middle of the box that holds all points of `meshes`.
+    fn sphere(self, meshes: &[&Mesh]) -> Sphere {
+        if self.low.x > self.high.x {
+            return Sphere { center: DVec3::ZERO, radius: 0.0 };
+        }
+        let center = (self.low + self.high) / 2.0;
+        let points = meshes.iter().flat_map(|m| m.positions()).filter(|p| usable(**p));
+        let radius = points.map(|p| p.distance_squared(center)).fold(0.0, f64::max).sqrt();
+        Sphere { center, radius }
     }
 }

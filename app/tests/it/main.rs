@@ -6,3 +6,5 @@
     clippy::allow_attributes,
     reason = "a test that panics has failed"
 )]
+
+mod shaders;

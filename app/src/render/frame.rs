@@ -1,0 +1,224 @@
+//! What changes from picture to picture: uniforms, and which lines and points are drawn.
+
+use std::ops::Range;
+
+use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
+
+use super::Size;
+use super::palette::{linear, palette};
+use super::upload::{PartBuffers, Uploaded};
+use crate::camera::Camera;
+use crate::scene::Style;
+
+/// Part of a picture, in pixels from its upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tile {
+    pub picture: Size,
+    pub left: u32,
+    pub top: u32,
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Tile {
+    pub(super) fn whole(picture: Size) -> Self {
+        Self { picture, left: 0, top: 0, width: picture.width, height: picture.height }
+    }
+
+    /// Scale and shift from coordinates in the picture (−1 to 1, y up) to coordinates in the tile.
+    fn transform(self) -> Vec4 {
+        let picture = Vec2::new(self.picture.width.max(1) as f32, self.picture.height.max(1) as f32);
+        let own = Vec2::new(self.width.max(1) as f32, self.height.max(1) as f32);
+        let scale = picture / own;
+        let left = 2.0 * self.left as f32 / picture.x - 1.0;
+        let top = 1.0 - 2.0 * self.top as f32 / picture.y;
+        Vec4::new(scale.x, scale.y, -1.0 - left * scale.x, 1.0 - top * scale.y)
+    }
+}
+
+/// `Frame` of `shaders/frame.wgsl`.
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct Frame {
+    view_from_scene: Mat4,
+    clip_from_scene: Mat4,
+    tile: Vec4,
+    background_top: [f32; 4],
+    background_bottom: [f32; 4],
+    front: [f32; 4],
+    back: [f32; 4],
+    eye: Vec3,
+    near: f32,
+    size: Vec2,
+    pixel: f32,
+    scale: f32,
+    smooth_shading: u32,
+    padding: [u32; 3],
+}
+
+/// `Layer` of `shaders/frame.wgsl`.
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct Layer {
+    line: [f32; 4],
+    strong_line: [f32; 4],
+    point: [f32; 4],
+    ring: [f32; 4],
+    line_width: f32,
+    strong_width: f32,
+    point_size: f32,
+    spacing: f32,
+    strong_from: u32,
+    opacity: f32,
+    padding: [u32; 2],
+}
+
+/// How many layers there are: the mesh, the control mesh, and what of the control mesh lies behind faces.
+pub(super) const LAYERS: usize = 3;
+const MESH: usize = 0;
+const CONTROL: usize = 1;
+const HIDDEN_CONTROL: usize = 2;
+
+/// Edges of the boundary are this many times as wide as others.
+const STRONG: f32 = 2.2;
+/// Opacity of what shows through the surface.
+const HIDDEN: f32 = 0.22;
+/// As in `shaders/edges.wgsl`: points between lines below which they are not drawn.
+const GONE_AT: f64 = 2.5;
+
+pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile) -> Frame {
+    let palette = palette(style.theme);
+    // Scene coordinates are turned and shifted in double precision, so that a far-away origin costs nothing.
+    let eye = (camera.eye() - scene.origin) / scene.unit;
+    let to_view = DMat4::from_quat(camera.world_from_view.conjugate());
+    let view_from_scene = to_view * DMat4::from_translation(-eye);
+    let near = camera.near() / scene.unit;
+    let mut clip_from_view = camera.clip_from_view(tile.picture.aspect());
+    clip_from_view.w_axis.z = near;
+    Frame {
+        view_from_scene: view_from_scene.as_mat4(),
+        clip_from_scene: (clip_from_view * view_from_scene).as_mat4(),
+        tile: tile.transform(),
+        background_top: linear(palette.background_top),
+        background_bottom: linear(palette.background_bottom),
+        front: linear(palette.front),
+        back: linear(palette.back),
+        eye: eye.as_vec3(),
+        near: near as f32,
+        size: Vec2::new(tile.picture.width.max(1) as f32, tile.picture.height.max(1) as f32),
+        pixel: pixel(camera, tile.picture) as f32,
+        scale: tile.picture.scale,
+        smooth_shading: u32::from(style.smooth),
+        padding: [0; 3],
+    }
+}
+
+pub(super) fn layers(scene: &Uploaded, style: &Style, scale: f32) -> [Layer; LAYERS] {
+    let palette = palette(style.theme);
+    let spacing = |part: &Option<PartBuffers>| part.as_ref().map_or(0.0, |p| p.mean_edge);
+    let mesh = Layer {
+        line: linear(if style.faces { palette.line } else { palette.bare_line }),
+        strong_line: linear(palette.strong_line),
+        point: linear(palette.point),
+        ring: linear(palette.ring),
+        line_width: style.edge_width * scale,
+        strong_width: style.edge_width * STRONG * scale,
+        point_size: style.vertex_size * scale,
+        spacing: spacing(&scene.mesh),
+        strong_from: scene.mesh.as_ref().map_or(0, |p| p.inner_edge_count),
+        opacity: 1.0,
+        padding: [0; 2],
+    };
+    let color = linear(palette.control);
+    let control = Layer {
+        line: color,
+        strong_line: color,
+        point: color,
+        ring: linear(palette.ring),
+        strong_width: style.edge_width * scale,
+        spacing: spacing(&scene.control),
+        strong_from: scene.control.as_ref().map_or(0, |p| p.inner_edge_count),
+        ..mesh
+    };
+    [mesh, control, Layer { opacity: HIDDEN, ..control }]
+}
+
+/// Which of the two meshes.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Which {
+    Mesh,
+    Control,
+}
+
+impl Which {
+    pub(super) fn of(self, scene: &Uploaded) -> Option<&PartBuffers> {
+        match self {
+            Self::Mesh => scene.mesh.as_ref(),
+            Self::Control => scene.control.as_ref(),
+        }
+    }
+}
+
+/// Lines and points of one mesh in one look.
+pub(super) struct LayerDraw {
+    pub part: Which,
+    pub layer: usize,
+    pub hidden: bool,
+    pub edges: Range<u32>,
+    pub vertices: Range<u32>,
+}
+
+/// Lines and points in the order in which they are drawn.
+pub(super) fn layer_draws(scene: &Uploaded, camera: &Camera, style: &Style, picture: Size) -> Vec<LayerDraw> {
+    let mut draws = Vec::new();
+    let edges = |part: &PartBuffers| first_edge(scene, part, camera, style, picture)..part.edge_count;
+    if let Some(mesh) = &scene.mesh {
+        draws.push(LayerDraw {
+            part: Which::Mesh,
+            layer: MESH,
+            hidden: false,
+            edges: if style.edges { edges(mesh) } else { 0..0 },
+            vertices: 0..if style.vertices { mesh.vertex_count } else { mesh.lonely_count },
+        });
+    }
+    if style.control
+        && let Some(control) = &scene.control
+    {
+        for (layer, hidden) in [(HIDDEN_CONTROL, true), (CONTROL, false)] {
+            let vertices = 0..control.vertex_count;
+            draws.push(LayerDraw { part: Which::Control, layer, hidden, edges: edges(control), vertices });
+        }
+    }
+    draws
+}
+
+/// Edges before this one would all come out too short to be drawn: spares the GPU millions of them.
+fn first_edge(scene: &Uploaded, part: &PartBuffers, camera: &Camera, style: &Style, picture: Size) -> u32 {
+    let bounds = scene.bounds(&Style { control: true, ..*style });
+    let nearest = (camera.eye().distance(bounds.center) - bounds.radius).max(camera.near()) / scene.unit;
+    let longest = f64::from(part.longest_inner_edge) / (nearest * pixel(camera, picture) * f64::from(picture.scale));
+    if longest < GONE_AT { part.inner_edge_count } else { 0 }
+}
+
+/// Length of a pixel at distance 1.
+fn pixel(camera: &Camera, picture: Size) -> f64 {
+    2.0 * (camera.field_of_view / 2.0).tan() / f64::from(picture.height.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_map_their_own_corners_to_the_corners_of_the_target() {
+        let tile = Tile { picture: Size::new(400, 200), left: 100, top: 50, width: 200, height: 50 };
+        let t = tile.transform();
+        let at = |x: f32, y: f32| {
+            let (x, y) = (2.0 * x / 400.0 - 1.0, 1.0 - 2.0 * y / 200.0);
+            (x * t.x + t.z, y * t.y + t.w)
+        };
+        assert_eq!(at(100.0, 50.0), (-1.0, 1.0));
+        assert_eq!(at(300.0, 100.0), (1.0, -1.0));
+        assert_eq!(Tile::whole(tile.picture).transform(), Vec4::new(1.0, 1.0, 0.0, 0.0));
+    }
+}

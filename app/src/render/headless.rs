@@ -1,0 +1,183 @@
+//! Pictures without a window.
+
+use image::RgbaImage;
+
+use super::frame::Tile;
+use super::palette::{to_linear, to_srgb};
+use super::{NoRenderer, RenderError, Renderer, Size, Target, device_descriptor};
+use crate::camera::Camera;
+use crate::scene::{Scene, Style};
+
+/// Pictures are drawn in tiles of at most this many pixels a side, which bounds the memory of the GPU they take.
+const TILE: u32 = 2048;
+
+/// Most pixels of a picture: a gigabyte.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// A renderer with a device of its own.
+#[derive(Debug)]
+pub struct Headless {
+    renderer: Renderer,
+}
+
+/// Draws one picture, with smooth outlines.
+///
+/// # Errors
+/// Without a graphics driver, or if the scene or the picture is too large for it.
+pub fn render_image(scene: &Scene, camera: &Camera, style: &Style, size: Size) -> Result<RgbaImage, RenderError> {
+    Headless::new(4)?.image(scene, camera, style, size)
+}
+
+impl Headless {
+    /// On the adapter whose name contains `WGPU_ADAPTER_NAME`, if that is set, or else on the fastest. `samples` is 1,
+    /// or 4 for smooth outlines.
+    ///
+    /// # Errors
+    /// Without a graphics driver.
+    pub fn new(samples: u32) -> Result<Self, RenderError> {
+        let name = std::env::var("WGPU_ADAPTER_NAME").ok().filter(|name| !name.is_empty());
+        Self::on_adapter(name.as_deref(), samples)
+    }
+
+    /// On the first adapter whose name contains `name`, in any case; on the fastest without a name.
+    ///
+    /// # Errors
+    /// Without such an adapter.
+    pub fn on_adapter(name: Option<&str>, samples: u32) -> Result<Self, RenderError> {
+        let adapter = adapter(name).map_err(|cause| NoRenderer { cause })?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&device_descriptor(&adapter)))
+            .map_err(|error| NoRenderer { cause: error.to_string() })?;
+        // What no scope catches, such as a device that is lost, shows when the picture is read.
+        device.on_uncaptured_error(std::sync::Arc::new(|error| log::error!("graphics: {error}")));
+        Ok(Self { renderer: Renderer::new(&device, &queue, samples)? })
+    }
+
+    /// Draws a picture.
+    ///
+    /// # Errors
+    /// If the scene or the picture is too large, or the driver gives up.
+    pub fn image(&self, scene: &Scene, camera: &Camera, style: &Style, size: Size) -> Result<RgbaImage, RenderError> {
+        let Size { width, height, scale } = size;
+        if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MOST_PIXELS {
+            return Err(RenderError::TooLarge(format!(
+                "a picture of {width}x{height} pixels cannot be drawn; it needs at least 1 and at most {MOST_PIXELS} pixels"
+            )));
+        }
+        let uploaded = self.renderer.upload(scene)?;
+        let side = TILE.min(self.renderer.device.limits().max_texture_dimension_2d);
+        let mut image = RgbaImage::new(width, height);
+        for top in (0..height).step_by(side as usize) {
+            for left in (0..width).step_by(side as usize) {
+                let tile =
+                    Tile { picture: size, left, top, width: side.min(width - left), height: side.min(height - top) };
+                let target = self.renderer.target(Size { width: tile.width, height: tile.height, scale })?;
+                self.renderer.draw_tile(&target, &uploaded, camera, style, tile)?;
+                self.read(&target, &mut image, tile)?;
+            }
+        }
+        if style.transparent {
+            image.pixels_mut().for_each(|pixel| pixel.0 = unmultiplied(pixel.0));
+        }
+        Ok(image)
+    }
+
+    /// Copies what was drawn into its place in the picture.
+    fn read(&self, target: &Target, image: &mut RgbaImage, tile: Tile) -> Result<(), RenderError> {
+        let device = &self.renderer.device;
+        let failed =
+            |what: &str| RenderError::Failed(format!("the graphics driver did not give back the picture: {what}"));
+        let row = (tile.width * 4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = super::guarded(device, || {
+            let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("picture"),
+                size: u64::from(row) * u64::from(tile.height),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            });
+            let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            encoder.copy_texture_to_buffer(
+                target.color.as_image_copy(),
+                wgpu::TexelCopyBufferInfo {
+                    buffer: &buffer,
+                    layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+                },
+                target.color.size(),
+            );
+            self.renderer.queue.submit([encoder.finish()]);
+            buffer
+        })?;
+        let (sender, receiver) = std::sync::mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            let _ = sender.send(result); // the receiver is gone only after an error
+        });
+        device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error.to_string()))?;
+        match receiver.try_recv() {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => return Err(failed(&error.to_string())),
+            Err(error) => return Err(failed(&error.to_string())),
+        }
+        let bytes = buffer.slice(..).get_mapped_range().map_err(|error| failed(&error.to_string()))?;
+        for (y, from) in bytes.chunks_exact(row as usize).enumerate() {
+            let start = ((tile.top as usize + y) * image.width() as usize + tile.left as usize) * 4;
+            let length = tile.width as usize * 4;
+            if let Some(to) = image.get_mut(start..start + length) {
+                to.copy_from_slice(&from[..length]);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The adapter called so, or the fastest; what went wrong otherwise.
+fn adapter(name: Option<&str>) -> Result<wgpu::Adapter, String> {
+    let mut cause = String::new();
+    // OpenGL only where nothing better is there: to look for it prints complaints on machines without a display.
+    for backends in [wgpu::Backends::PRIMARY, wgpu::Backends::SECONDARY] {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        descriptor.backends &= backends;
+        let instance = wgpu::Instance::new(descriptor);
+        let found = match name {
+            Some(name) => {
+                let adapters = pollster::block_on(instance.enumerate_adapters(backends));
+                let matches = |a: &wgpu::Adapter| a.get_info().name.to_lowercase().contains(&name.to_lowercase());
+                let cause = || format!("of {} adapters none is called {name}", adapters.len());
+                adapters.iter().find(|a| matches(a)).cloned().ok_or_else(cause)
+            }
+            None => pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
+                power_preference: wgpu::PowerPreference::HighPerformance,
+                ..Default::default()
+            }))
+            .map_err(|error| error.to_string()),
+        };
+        match found {
+            Ok(adapter) => return Ok(adapter),
+            Err(error) if cause.is_empty() => cause = error,
+            Err(_) => {}
+        }
+    }
+    Err(cause)
+}
+
+/// From light multiplied by opacity, as blending over nothing leaves it, to the plain colour that files hold.
+fn unmultiplied(pixel: [u8; 4]) -> [u8; 4] {
+    let [r, g, b, a] = pixel;
+    if a == 0 || a == 255 {
+        return pixel;
+    }
+    let opacity = f32::from(a) / 255.0;
+    let plain = |c: u8| (to_srgb((to_linear(f32::from(c) / 255.0) / opacity).min(1.0)) * 255.0).round() as u8;
+    [plain(r), plain(g), plain(b), a]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_covered_pixels_keep_their_colour() {
+        assert_eq!(unmultiplied([10, 20, 30, 255]), [10, 20, 30, 255]);
+        assert_eq!(unmultiplied([0, 0, 0, 0]), [0, 0, 0, 0]);
+        // Half of the light of full white is 188 in sRGB.
+        assert_eq!(unmultiplied([188, 188, 188, 128])[0], 255);
+    }
+}

@@ -1,0 +1,152 @@
+//! How each pass is set up.
+
+use super::shaders;
+
+/// Colour of the target: sRGB, so that blending happens in linear light.
+pub(super) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
+/// The same bytes as egui wants to see them.
+pub(super) const COLOR_BYTES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+#[derive(Debug)]
+pub(super) struct Pipelines {
+    pub background: wgpu::RenderPipeline,
+    pub faces: wgpu::RenderPipeline,
+    edges: wgpu::RenderPipeline,
+    vertices: wgpu::RenderPipeline,
+    hidden_edges: wgpu::RenderPipeline,
+    hidden_vertices: wgpu::RenderPipeline,
+    /// Group 0: frame and layer.
+    pub frame_layout: wgpu::BindGroupLayout,
+    /// Group 1: corners and edges of one mesh.
+    pub part_layout: wgpu::BindGroupLayout,
+}
+
+/// What distinguishes one pass from another.
+struct Pass {
+    name: &'static str,
+    shader: &'static str,
+    depth: wgpu::CompareFunction,
+    /// Faces: cover what is there and write depth, a little behind where they are, so that lines on them win.
+    solid: bool,
+    buffers: &'static [Option<wgpu::VertexBufferLayout<'static>>],
+}
+
+const CORNERS: &[Option<wgpu::VertexBufferLayout<'static>>] = &[Some(wgpu::VertexBufferLayout {
+    array_stride: size_of::<crate::scene::Corner>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32],
+})];
+
+impl Pipelines {
+    pub(super) fn new(device: &wgpu::Device, samples: u32) -> Self {
+        use wgpu::CompareFunction::{Always, Greater, GreaterEqual, Less};
+        let frame_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("frame"),
+            entries: &[uniform(0, false), uniform(1, true)],
+        });
+        let part_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("part"),
+            entries: &[storage(0), storage(1)],
+        });
+        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("all passes"),
+            bind_group_layouts: &[Some(&frame_layout), Some(&part_layout)],
+            immediate_size: 0,
+        });
+        let flat_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("without mesh"),
+            bind_group_layouts: &[Some(&frame_layout)],
+            immediate_size: 0,
+        });
+        let lines = |name, shader, depth| {
+            let pass = Pass { name, shader, depth, solid: false, buffers: &[] };
+            pipeline(device, &layout, samples, &pass)
+        };
+        let faces = Pass { name: "faces", shader: shaders::FACES, depth: Greater, solid: true, buffers: CORNERS };
+        let background =
+            Pass { name: "background", shader: shaders::BACKGROUND, depth: Always, solid: false, buffers: &[] };
+        Self {
+            background: pipeline(device, &flat_layout, samples, &background),
+            faces: pipeline(device, &flat_layout, samples, &faces),
+            edges: lines("edges", shaders::EDGES, GreaterEqual),
+            vertices: lines("vertices", shaders::VERTICES, GreaterEqual),
+            hidden_edges: lines("hidden edges", shaders::EDGES, Less),
+            hidden_vertices: lines("hidden vertices", shaders::VERTICES, Less),
+            frame_layout,
+            part_layout,
+        }
+    }
+
+    /// For what lies in front of the faces or, `hidden`, behind them.
+    pub(super) fn lines_and_points(&self, hidden: bool) -> (&wgpu::RenderPipeline, &wgpu::RenderPipeline) {
+        if hidden { (&self.hidden_edges, &self.hidden_vertices) } else { (&self.edges, &self.vertices) }
+    }
+}
+
+fn uniform(binding: u32, has_dynamic_offset: bool) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BufferBindingType::Uniform;
+    entry(binding, wgpu::ShaderStages::VERTEX_FRAGMENT, ty, has_dynamic_offset)
+}
+
+fn storage(binding: u32) -> wgpu::BindGroupLayoutEntry {
+    entry(binding, wgpu::ShaderStages::VERTEX, wgpu::BufferBindingType::Storage { read_only: true }, false)
+}
+
+fn entry(
+    binding: u32,
+    visibility: wgpu::ShaderStages,
+    ty: wgpu::BufferBindingType,
+    has_dynamic_offset: bool,
+) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None };
+    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+}
+
+fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, samples: u32, pass: &Pass) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(pass.name),
+        source: wgpu::ShaderSource::Wgsl(pass.shader.into()),
+    });
+    // Depth is reversed, so behind is less. The slope part covers lines up to three pixels wide on steep faces.
+    let behind = wgpu::DepthBiasState { constant: -1, slope_scale: -1.5, clamp: 0.0 };
+    let over = wgpu::BlendState {
+        color: wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::SrcAlpha,
+            dst_factor: wgpu::BlendFactor::OneMinusSrcAlpha,
+            operation: wgpu::BlendOperation::Add,
+        },
+        alpha: wgpu::BlendComponent::OVER,
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(pass.name),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: pass.buffers,
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH,
+            depth_write_enabled: Some(pass.solid),
+            depth_compare: Some(pass.depth),
+            stencil: wgpu::StencilState::default(),
+            bias: if pass.solid { behind } else { wgpu::DepthBiasState::default() },
+        }),
+        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: COLOR,
+                blend: if pass.solid { None } else { Some(over) },
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

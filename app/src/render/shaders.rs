@@ -1,0 +1,18 @@
+//! The shaders of each pass, as WGSL text. What they share stands in front of each.
+
+/// Background.
+pub const BACKGROUND: &str =
+    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/background.wgsl"));
+/// Faces.
+pub const FACES: &str =
+    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/faces.wgsl"));
+/// Edges.
+pub const EDGES: &str =
+    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/edges.wgsl"));
+/// Vertices.
+pub const VERTICES: &str =
+    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/vertices.wgsl"));
+
+/// All of them by name.
+pub const ALL: [(&str, &str); 4] =
+    [("background", BACKGROUND), ("faces", FACES), ("edges", EDGES), ("vertices", VERTICES)];

@@ -1,0 +1,51 @@
+// What all passes share; put in front of each of them.
+//
+// Scene coordinates are of the size 1. View coordinates have the eye at zero and look along -z. Depth is reversed:
+// a point at distance w from the eye plane has depth near / w, 1 at the near plane and 0 at infinity.
+
+struct Frame {
+    view_from_scene: mat4x4<f32>,
+    clip_from_scene: mat4x4<f32>,
+    // Rectangle of the whole picture that is drawn now: ndc of the tile = ndc of the picture * xy + zw.
+    tile: vec4<f32>,
+    background_top: vec4<f32>,
+    background_bottom: vec4<f32>,
+    front: vec4<f32>,
+    back: vec4<f32>,
+    eye: vec3<f32>, // in scene coordinates
+    near: f32,
+    size: vec2<f32>, // of the whole picture in pixels
+    pixel: f32, // length of a pixel at distance 1
+    scale: f32, // pixels per point
+    smooth_shading: u32,
+}
+
+// How the lines and points of one mesh look.
+struct Layer {
+    line: vec4<f32>, // colour of edges between two faces, not premultiplied
+    strong_line: vec4<f32>, // colour of the other edges
+    point: vec4<f32>,
+    ring: vec4<f32>, // colour around points
+    line_width: f32, // in pixels
+    strong_width: f32,
+    point_size: f32,
+    spacing: f32, // mean length of edges in scene coordinates, 0 if there are none
+    strong_from: u32, // edges from this on are strong
+    opacity: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+// Unpacks a unit vector from the square onto which the octahedron around the unit ball was unfolded.
+fn unpack_normal(word: u32) -> vec3<f32> {
+    let square = unpack2x16snorm(word);
+    let z = 1.0 - abs(square.x) - abs(square.y);
+    let below = max(-z, 0.0);
+    let xy = square + select(vec2(below), vec2(-below), square >= vec2(0.0));
+    return normalize(vec3(xy, z));
+}
+
+// From the whole picture to the tile that is drawn now.
+fn to_tile(clip: vec4<f32>) -> vec4<f32> {
+    return vec4(clip.xy * frame.tile.xy + clip.w * frame.tile.zw, clip.zw);
+}
