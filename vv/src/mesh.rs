@@ -15,6 +15,7 @@
 //! no vertex twice, never the vertex itself, no two gaps side by side (the list is cyclic), `{∅}` is `{}`, and a ring
 //! with gaps ends in one — so its start, the slot at index 0, follows its *first* gap.
 
+pub mod build;
 pub mod close;
 mod column;
 pub mod faces;
@@ -22,6 +23,8 @@ mod property;
 mod ring;
 mod set;
 pub mod statistics;
+mod twins;
+pub mod validate;
 
 use std::fmt;
 use std::num::NonZeroU32;

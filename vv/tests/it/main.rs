@@ -6,3 +6,7 @@
     clippy::allow_attributes,
     reason = "a test that panics has failed"
 )]
+
+mod files;
+mod mesh;
+mod shapes;

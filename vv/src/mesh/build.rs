@@ -1,0 +1,218 @@
+//! Polygons to a rotation system.
+//!
+//! In a face (…, a, v, c, …), counter-clockwise seen from outside, a follows c in the ring of v. So the corners at a
+//! vertex link up to *fans*: a closed one around an interior vertex, open ones between two border edges.
+//!
+//! ```text
+//!        c₁                     corner 0 leaves for c₀ and comes from a₀ = c₁,
+//!        │ ╲                    corner 1 leaves for c₁ and comes from a₁ = c₂, …
+//!   c₂───v───c₀                 the ring of v is (c₀ c₁ c₂ …), after an open fan a gap
+//! ```
+//!
+//! A rotation system holds simple graphs on orientable surfaces. What else a file may hold is mended and reported, or
+//! refused, see [`build`].
+
+mod clean;
+mod edges;
+mod fans;
+
+use glam::DVec3;
+
+use super::{Full, Mesh, Vertex};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::stop::{Stop, Stopped};
+use edges::Edges;
+
+/// How many faces, edges or vertices a warning quotes.
+const SHOWN: usize = 5;
+
+/// How many corners of a face are written out.
+const CORNERS_SHOWN: usize = 12;
+
+/// Polygons over numbered vertices, as files hold them.
+#[derive(Debug, Clone, Default)]
+pub struct Polygons {
+    /// Positions of the vertices.
+    pub positions: Vec<DVec3>,
+    corners: Vec<u32>,
+    /// End of each face in `corners`.
+    ends: Vec<u32>,
+    /// For each face its number in the file, from 1, and its line, 0 if unknown.
+    names: Vec<(u32, u32)>,
+}
+
+impl Polygons {
+    /// Polygons over these vertices, none yet.
+    #[must_use]
+    pub fn new(positions: Vec<DVec3>) -> Self {
+        Self { positions, ..Self::default() }
+    }
+
+    /// Adds a face by the numbers of its corners, from 0, counter-clockwise seen from outside; `line` is the line of the
+    /// file it stands in. A corner that is no vertex makes no face: the number is returned.
+    ///
+    /// # Errors
+    /// The first corner that is not there. More corners than a `u32` counts fail too, with the corner at which it happens.
+    pub fn push(&mut self, corners: impl IntoIterator<Item = u32>, line: Option<u32>) -> Result<(), u32> {
+        let start = self.corners.len();
+        for corner in corners {
+            if corner as usize >= self.positions.len() || self.corners.len() >= u32::MAX as usize - 1 {
+                self.corners.truncate(start);
+                return Err(corner);
+            }
+            self.corners.push(corner);
+        }
+        self.ends.push(self.corners.len() as u32);
+        self.names.push((self.ends.len() as u32, line.unwrap_or(0)));
+        Ok(())
+    }
+
+    /// How many faces.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Whether there is no face.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The corners of face `f`.
+    fn face(&self, f: usize) -> &[u32] {
+        &self.corners[self.range(f)]
+    }
+
+    fn range(&self, f: usize) -> std::ops::Range<usize> {
+        let start = if f == 0 { 0 } else { self.ends[f - 1] as usize };
+        start..self.ends[f] as usize
+    }
+
+    /// `face 3`, `face 3 (line 12)`.
+    fn name(&self, f: usize) -> String {
+        match self.names[f] {
+            (number, 0) => format!("face {number}"),
+            (number, line) => format!("face {number} (line {line})"),
+        }
+    }
+
+    fn line(&self, f: usize) -> Option<u32> {
+        Some(self.names[f].1).filter(|&line| line > 0)
+    }
+
+    /// `face 3 (line 12): v1 v2 v3`.
+    fn quote(&self, f: usize) -> String {
+        let corners = self.face(f);
+        let mut text = format!("{}:", self.name(f));
+        for &corner in corners.iter().take(CORNERS_SHOWN) {
+            text += &format!(" {}", vertex_name(corner));
+        }
+        if corners.len() > CORNERS_SHOWN {
+            text += &format!(" … ({} corners)", corners.len());
+        }
+        text
+    }
+}
+
+/// Why polygons make no mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum BuildError {
+    /// The surface cannot be represented, or may not be mended.
+    Refused {
+        /// Line of a face that shows it, if known.
+        line: Option<u32>,
+        /// What and why, without span.
+        diagnostic: Box<Diagnostic>,
+    },
+    /// Stopped from outside.
+    Stopped(Stopped),
+}
+
+impl From<Stopped> for BuildError {
+    fn from(stopped: Stopped) -> Self {
+        Self::Stopped(stopped)
+    }
+}
+
+impl BuildError {
+    fn refused(line: Option<u32>, diagnostic: Diagnostic) -> Self {
+        Self::Refused { line, diagnostic: Box::new(diagnostic) }
+    }
+}
+
+/// What is said about the input: what was changed, and what is only remarkable.
+#[derive(Default)]
+struct Report {
+    repairs: Vec<Diagnostic>,
+    remarks: Vec<Diagnostic>,
+}
+
+/// Makes a mesh whose faces are the polygons. Its vertices are those of the input in order, then duplicates; its set
+/// holds them all. The first face that names a vertex gives the start of its ring: after (…, a, v, c, …) the ring of v begins
+/// with c, or where v lies on a border after the gap before the fan of that face.
+///
+/// What is no rotation system is mended, and what was done comes back as warnings without spans:
+///
+/// | input | done |
+/// |---|---|
+/// | a repeated consecutive corner, a face of less than three corners, a duplicate face | dropped |
+/// | an isolated vertex | dropped |
+/// | neighbouring faces that run along an edge in the same direction | the fewer faces of the component are turned over |
+/// | an edge with more than two faces (two parallel edges look the same) | faces are paired, within a component first; the others keep their place with duplicates of the vertices |
+/// | several fans at a vertex, some closed | a vertex for each closed fan, one for all open ones |
+/// | three or more open fans at a vertex | kept in the order of their first faces, as their cyclic order is not known |
+/// | two faces back to back | kept |
+/// | a surface that is not orientable | refused, with a cycle of faces that proves it |
+///
+/// With `strict`, what would have to be changed is refused; what is kept still comes with a warning. Cost: linear but for sorting
+/// the edges of each vertex.
+///
+/// # Errors
+/// See above, or when stopped.
+pub fn build(polygons: Polygons, strict: bool, stop: &Stop) -> Result<(Mesh, Vec<Diagnostic>), BuildError> {
+    let mut report = Report::default();
+    let mut polygons = clean::clean(polygons, &mut report, stop)?;
+    let mut edges = Edges::new(&polygons, stop)?;
+    edges.orient(&mut polygons, &mut report, stop)?;
+    let mesh = fans::mesh(&polygons, &edges, &mut report, stop)?;
+    let Report { repairs, remarks } = report;
+    if strict && !repairs.is_empty() {
+        return Err(refuse(repairs));
+    }
+    Ok((mesh, repairs.into_iter().chain(remarks).collect()))
+}
+
+/// An error that names the repairs that would have been needed.
+fn refuse(mut repairs: Vec<Diagnostic>) -> BuildError {
+    let others = repairs.split_off(1);
+    let mut error = repairs.swap_remove(0);
+    error.severity = Severity::Error;
+    error.message = format!("the mesh needs repair, which strict reading refuses: {}", error.message);
+    error.evidence.extend(others.into_iter().map(|d| format!("also: {}", d.message)));
+    error.vertices.clear(); // there is no mesh to show them on
+    BuildError::refused(None, error)
+}
+
+fn full() -> BuildError {
+    BuildError::refused(None, Diagnostic::new(Severity::Error, None, Full.to_string()))
+}
+
+fn warning(message: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Severity::Warning, None, message)
+}
+
+/// Adds the first few facts and how many more there are.
+fn quote(mut diagnostic: Diagnostic, total: usize, mut fact: impl FnMut(usize) -> String) -> Diagnostic {
+    for i in 0..total.min(SHOWN) {
+        diagnostic = diagnostic.evidence(fact(i));
+    }
+    if total > SHOWN {
+        diagnostic = diagnostic.evidence(format!("and {} more", total - SHOWN));
+    }
+    diagnostic
+}
+
+fn vertex_name(index: u32) -> String {
+    Vertex::from_index(index as usize).map_or_else(String::new, |v| v.to_string())
+}
