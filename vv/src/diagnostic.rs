@@ -2,6 +2,8 @@
 
 mod human;
 mod machine;
+#[cfg(test)]
+mod tests;
 
 use crate::mesh::Vertex;
 use crate::source::Span;

@@ -309,8 +309,11 @@ impl Lexer<'_> {
             }
         }
         if !closed {
+            // The `;` at the end of the line was hardly meant to be part of it.
+            let inside = self.text[start..self.at].trim_end_matches([';', ')', ' ', '\t']);
+            self.at = start + inside.len().max(opening.len_utf8());
             let span = self.span(start);
-            let end = Span::new(self.file, span.end, span.end);
+            let end = Span { start: span.end, ..span };
             self.diagnostics.push(Diagnostic::error(span, "this string is not closed on its line").fix(
                 "close it with `\"`",
                 end,

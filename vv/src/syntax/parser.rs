@@ -5,7 +5,10 @@
 //! mistake gives one message, and what was read before it stays in the tree. A *mended* mistake, one whose meaning is
 //! plain (a missing `;`, a cast, a lost space), is reported without panicking.
 
+mod algebra;
+mod declarations;
 mod expressions;
+mod foreign;
 mod items;
 mod statements;
 
@@ -263,14 +266,16 @@ impl<'t> Parser<'t> {
                 diagnostic.hint(format!("name a vertex between `{earlier}` and `in`"))
             }
             (Kind::Word, "in") => diagnostic.hint("membership is asked with `is x in v`"),
+            (Kind::Word, _) if earlier == "any" => diagnostic.hint("write `any in v`"),
             (Kind::Word, "nb" | "nb_of") => {
                 diagnostic.hint("the ring of a vertex is set with `make {a, b, c} nb_of v`")
             }
             (Kind::Word, word) if !earlier.is_empty() && !words::is_reserved(word) => {
                 let known = words::STATEMENTS.iter().chain(words::PREFIXES).copied();
-                match words::similar(earlier, known) {
-                    Some(meant) => diagnostic.fix(format!("did you mean `{meant}`?"), before, meant),
-                    None => diagnostic,
+                match (words::foreign_construct(earlier), words::similar(earlier, known)) {
+                    (Some((message, _)), _) => diagnostic.hint(message),
+                    (_, Some(meant)) => diagnostic.fix(format!("did you mean `{meant}`?"), before, meant),
+                    _ => diagnostic,
                 }
             }
             (Kind::Bar, _) => diagnostic.hint("an edge is written `(p|q)`, with parentheses; vv has no bit operations"),
@@ -278,9 +283,11 @@ impl<'t> Parser<'t> {
             (Kind::Foreign, "<<") => diagnostic.hint("write `print a, b;`; vv has no bit operations"),
             (Kind::Foreign, _) => diagnostic.hint("vv has no bit operations; powers are written `pow(x, 2.0)`"),
             (Kind::OpenBracket, _) => {
-                diagnostic.hint("vv has no arrays; keep values as properties of vertices: `v$name`")
+                diagnostic.hint("vv has neither arrays nor lambdas; keep values as properties of vertices: `v$name`")
             }
-            (Kind::OpenBrace, _) => diagnostic.hint("a vector is written `vec(x, y, z)`"),
+            (Kind::OpenBrace, _) if self.follows(&[Kind::Assign, Kind::Comma, Kind::OpenParen]) => {
+                diagnostic.hint("a vector is written `vec(x, y, z)`")
+            }
             (Kind::Arrow, _) => diagnostic.fix("properties are written `v$name`", here, "$"),
             (Kind::DoubleColon, _) => diagnostic.hint("vv has no namespaces"),
             (Kind::Old, _) => diagnostic.hint("the old-value mark stands before a name: `` `v$pos ``"),
@@ -297,11 +304,20 @@ impl<'t> Parser<'t> {
         }
     }
 
+    fn follows(&self, kinds: &[Kind]) -> bool {
+        self.at > 0 && kinds.contains(&self.kind_at(self.at - 1))
+    }
+
     // Finding back
 
     /// Takes the bracket that closes the one at token `open`; if it is not there, goes on behind it where it can be
     /// found in the same statement.
     fn close(&mut self, close: Kind, open: usize) {
+        self.close_list(close, open, false);
+    }
+
+    /// As [`Parser::close`]; `in_list`: there might have been a comma, too.
+    fn close_list(&mut self, close: Kind, open: usize, in_list: bool) {
         if self.eat(close) {
             return;
         }
@@ -318,7 +334,8 @@ impl<'t> Parser<'t> {
             return;
         }
         if !self.panicking {
-            let message = format!("expected `{sign}`, found {}", self.found());
+            let comma = if in_list { "`,` or " } else { "" };
+            let message = format!("expected {comma}`{sign}`, found {}", self.found());
             let diagnostic = self.guess(Diagnostic::error(self.here(), message).label(opening, "to close this"));
             self.fail(diagnostic);
         }
@@ -361,7 +378,7 @@ impl<'t> Parser<'t> {
         }
         let new_line = self.token(self.at).new_line && (self.kind() == Kind::Word || self.kind() == Kind::Hash);
         let over = self.statement_is_over() && self.kind() != Kind::OpenBrace;
-        if !self.panicking && (new_line || over || words::STATEMENTS.contains(&self.word())) && !self.is_mistyped() {
+        if !self.panicking && (new_line || over || words::leads(self.word())) && !self.is_mistyped() {
             let end = self.after_previous();
             self.mend(Diagnostic::error(self.previous(), "expected `;` after this").fix("write `;`", end, ";"));
             return;
@@ -464,16 +481,7 @@ impl<'t> Parser<'t> {
     }
 
     fn call(kind: TypeKind, span: Span, arguments: Vec<Expr>) -> ExprKind {
-        let text = match kind {
-            TypeKind::Void => "void",
-            TypeKind::Bool => "bool",
-            TypeKind::Int => "int",
-            TypeKind::Double => "double",
-            TypeKind::Vec => "vec",
-            TypeKind::Vertex => "vertex",
-            TypeKind::Mesh => "mesh",
-        };
-        ExprKind::Call { callee: Name { text: text.to_owned(), span }, arguments }
+        ExprKind::Call { callee: Name { text: words::name(kind).to_owned(), span }, arguments }
     }
 }
 

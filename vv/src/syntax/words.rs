@@ -43,6 +43,19 @@ pub(super) fn any_type(word: &str) -> Option<TypeKind> {
     }
 }
 
+/// How a type is written.
+pub(super) fn name(ty: TypeKind) -> &'static str {
+    match ty {
+        TypeKind::Void => "void",
+        TypeKind::Bool => "bool",
+        TypeKind::Int => "int",
+        TypeKind::Double => "double",
+        TypeKind::Vec => "vec",
+        TypeKind::Vertex => "vertex",
+        TypeKind::Mesh => "mesh",
+    }
+}
+
 pub(super) fn is_reserved(word: &str) -> bool {
     RESERVED.contains(&word)
 }
@@ -59,12 +72,12 @@ pub(super) fn leads(word: &str) -> bool {
 /// The word of `list` that was probably meant by `word`.
 pub(super) fn similar<'w>(word: &str, list: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
     let tolerance = match word.chars().count() {
-        0..=2 => return None,
-        3..=4 => 1,
+        0..=3 => 0, // `If`; more would find `for` in every `foo`
+        4 => 1,
         _ => 2,
     };
     list.into_iter()
-        .filter(|meant| *meant != word && meant.len() > 2)
+        .filter(|meant| *meant != word)
         .map(|meant| (edits(word, meant), meant))
         .filter(|&(distance, _)| distance <= tolerance)
         .min_by_key(|&(distance, _)| distance)

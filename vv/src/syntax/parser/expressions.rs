@@ -5,7 +5,6 @@ use super::super::tree::{BinaryOp, Expr, ExprKind, Name, Step, StepPosition, Una
 use super::super::words;
 use super::{Parser, Role, Tall, grow};
 use crate::diagnostic::Diagnostic;
-use crate::source::Span;
 
 /// Operators between operands, the loosest first; all of them group from the left.
 #[rustfmt::skip]
@@ -69,92 +68,6 @@ impl Parser<'_> {
             if !self.eat(Kind::Comma) {
                 return (list, height);
             }
-        }
-    }
-
-    /// The second operand of a word of the algebra such as `nextto left word operand`. Mends `Swith`, `withT`, and a
-    /// word that is nearly the right one.
-    pub(super) fn second(&mut self, left: &mut Tall, word: &'static str, form: &str) -> Tall {
-        if self.panicking {
-            return self.error_expression();
-        }
-        if self.at_infix(word) {
-            self.take_infix();
-            return self.unary();
-        }
-        // `is any in S`, where `any` is a variable after all.
-        if word == "in"
-            && let ExprKind::Any { ring } = &mut left.expr.kind
-        {
-            let ring = std::mem::replace(&mut **ring, Expr { kind: ExprKind::Error, span: left.expr.span });
-            let span = Span { end: left.expr.span.start + 3, ..left.expr.span };
-            left.expr = Expr { kind: ExprKind::Name("any".to_owned()), span };
-            return Tall { expr: ring, height: left.height };
-        }
-        let here = self.here();
-        if let ExprKind::Name(name) = &mut left.expr.kind
-            && let Some(rest) = name.strip_suffix(word).filter(|rest| !rest.is_empty())
-            && self.operand_at(self.at)
-        {
-            let rest = rest.to_owned();
-            let glued = left.expr.span;
-            self.mend(Diagnostic::error(glued, format!("expected `{word}`: a space is missing in `{name}`")).fix(
-                format!("write `{rest} {word}`"),
-                glued,
-                format!("{rest} {word}"),
-            ));
-            left.expr.span.end -= word.len() as u32;
-            *name = rest;
-            return self.unary();
-        }
-        let found = self.word();
-        if let Some(rest) = found.strip_prefix(word).filter(|rest| !rest.is_empty()) {
-            self.mend(Diagnostic::error(here, format!("expected `{word}`: a space is missing in `{found}`")).fix(
-                format!("write `{word} {rest}`"),
-                here,
-                format!("{word} {rest}"),
-            ));
-            self.bump();
-            let name = Span { start: here.start + word.len() as u32, ..here };
-            let name = self.tall(ExprKind::Name(rest.to_owned()), name, 0);
-            return self.postfix(name, false);
-        }
-        let nearly = words::is_infix(found)
-            || matches!(found, "and" | "by" | "of" | "into" | "on" | "at" | "nbof")
-            || words::similar(found, [word]).is_some();
-        let behind = self.at + 1;
-        if nearly && self.operand_at(behind) && !self.token(behind).new_line {
-            self.mend(Diagnostic::error(here, format!("expected `{word}`, found `{found}`")).fix(
-                format!("write {form}"),
-                here,
-                word,
-            ));
-            self.bump();
-            return self.unary();
-        }
-        if self.kind() == Kind::Word {
-            let known = words::PREFIXES.iter().chain(words::STATEMENTS).copied();
-            let earlier = self.word_at(self.at.saturating_sub(1));
-            if words::similar(earlier, known).is_some() {
-                self.unexpected(&format!("`{word}`"));
-                return self.error_expression();
-            }
-        }
-        let message = format!("expected `{word}`, found {}", self.found());
-        self.fail(Diagnostic::error(here, message).hint(format!("write {form}")));
-        self.error_expression()
-    }
-
-    /// Whether a word between operands stands here; `nb of` is `nb_of`.
-    fn at_infix(&self, word: &str) -> bool {
-        self.word() == word || (word == "nb_of" && self.word() == "nb" && self.word_at(self.at + 1) == "of")
-    }
-
-    fn take_infix(&mut self) {
-        let two = self.word() == "nb";
-        self.bump_as(Role::Algebra);
-        if two {
-            self.bump_as(Role::Algebra);
         }
     }
 
@@ -245,7 +158,7 @@ impl Parser<'_> {
     }
 
     /// `before_body`: the body of a `forall` follows without braces, so `(` and `++` may belong to it.
-    fn unary_before(&mut self, before_body: bool) -> Tall {
+    pub(super) fn unary_before(&mut self, before_body: bool) -> Tall {
         if self.panicking {
             return self.error_expression();
         }
@@ -284,77 +197,7 @@ impl Parser<'_> {
         self.unary_before(true).expr
     }
 
-    /// The queries of the algebra, and what else begins with a word.
-    fn query(&mut self, before_body: bool) -> Tall {
-        let start = self.at;
-        let mut word = self.word();
-        if !words::PREFIXES.contains(&word) && self.begins_operation(start) && !self.token(start + 1).new_line {
-            // `nextot q in p`: nothing else makes sense.
-            let is_call = self.kind_at(start + 1) == Kind::OpenParen;
-            if !is_call && let Some(meant) = words::similar(word, words::PREFIXES.iter().copied()) {
-                let here = self.here();
-                let message = format!("unknown word `{word}`");
-                self.mend(Diagnostic::error(here, message).fix(format!("did you mean `{meant}`?"), here, meant));
-                word = meant;
-            }
-        }
-        let applies = if word == "any" {
-            self.word_at(start + 1) == "in" && self.operand_at(start + 2)
-        } else {
-            words::PREFIXES.contains(&word) && self.begins_operation(start)
-        };
-        if !applies {
-            let primary = self.primary();
-            return self.postfix(primary, before_body);
-        }
-        if !self.enter() {
-            return self.error_expression();
-        }
-        self.bump_as(Role::Algebra);
-        let result = self.operation(start, word, before_body);
-        self.leave();
-        result
-    }
-
-    /// What stands behind a word of the algebra such as `nextto`.
-    fn operation(&mut self, start: usize, word: &str, before_body: bool) -> Tall {
-        let begin = self.span_at(start);
-        match word {
-            "any" => {
-                self.bump_as(Role::Algebra);
-                let ring = self.unary_before(before_body);
-                let span = begin.to(ring.expr.span);
-                self.tall(ExprKind::Any { ring: Box::new(ring.expr) }, span, ring.height)
-            }
-            "valence" | "gaps" => {
-                let ring = self.unary_before(before_body);
-                let span = begin.to(ring.expr.span);
-                let (height, ring) = (ring.height, Box::new(ring.expr));
-                let kind = if word == "gaps" { ExprKind::Gaps { ring } } else { ExprKind::Valence { ring } };
-                self.tall(kind, span, height)
-            }
-            _ => {
-                let mut item = self.unary();
-                let ring = self.second(&mut item, "in", &format!("`{word} x in v`"));
-                let span = begin.to(ring.expr.span);
-                let height = item.height.max(ring.height);
-                let (item, ring) = (Box::new(item.expr), Box::new(ring.expr));
-                let kind = match word {
-                    "nextto" => ExprKind::Next { item, ring },
-                    "prevto" => ExprKind::Previous { item, ring },
-                    _ => ExprKind::Is { item, of: ring },
-                };
-                self.tall(kind, span, height)
-            }
-        }
-    }
-
-    /// Whether an operand follows the word at a token. A word such as `in` is one only before another such word.
-    pub(super) fn begins_operation(&self, at: usize) -> bool {
-        self.operand_at(at + 1) && (!words::is_infix(self.word_at(at + 1)) || words::is_infix(self.word_at(at + 2)))
-    }
-
-    fn primary(&mut self) -> Tall {
+    pub(super) fn primary(&mut self) -> Tall {
         if self.panicking {
             return self.error_expression();
         }
@@ -539,7 +382,7 @@ impl Parser<'_> {
     }
 
     /// What may follow an operand: calls, `$name`, `.name`, `++`, `--`.
-    fn postfix(&mut self, mut of: Tall, before_body: bool) -> Tall {
+    pub(super) fn postfix(&mut self, mut of: Tall, before_body: bool) -> Tall {
         let begin = of.expr.span;
         while !self.panicking {
             let here = self.here();
@@ -553,7 +396,7 @@ impl Parser<'_> {
                     let callee = Name { text: callee.clone(), span: of.expr.span };
                     self.bump();
                     let (arguments, height) = self.list(Kind::CloseParen);
-                    self.close(Kind::CloseParen, start);
+                    self.close_list(Kind::CloseParen, start, true);
                     let span = begin.to(self.previous());
                     of = self.tall(ExprKind::Call { callee, arguments }, span, height);
                 }

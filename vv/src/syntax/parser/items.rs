@@ -63,58 +63,75 @@ impl Parser<'_> {
             (Kind::Word, "const") => Some(self.constant()),
             (Kind::Word, _) if self.function_ahead() => self.function(false),
             (Kind::Word, _) if self.declaration_at(start) => Some(self.constant()),
-            _ => {
-                self.misplaced();
-                None
-            }
+            _ => self.misplaced(),
         }
     }
 
-    /// Something that is no item.
-    fn misplaced(&mut self) {
+    /// Something that is no item, read as one if it comes near to one.
+    fn misplaced(&mut self) -> Option<Item> {
         let (start, word, span) = (self.at, self.word(), self.here());
         let next = self.kind_at(start + 1);
-        if self.kind() == Kind::Word && matches!(next, Kind::Word | Kind::OpenBrace | Kind::Less) {
-            let construct = match word {
-                "struct" | "class" | "template" | "using" | "namespace" | "typedef" | "enum" | "union" => true,
-                _ => next == Kind::Word && words::foreign_type(word).is_none() && !words::STATEMENTS.contains(&word),
-            };
-            if let Some((message, hint)) = words::foreign_construct(word).filter(|_| construct) {
-                return self.fail(Diagnostic::error(span, message).hint(hint));
-            }
+        let is_word = self.kind() == Kind::Word && !words::is_reserved(word);
+        let is_pair = is_word && next == Kind::Word && !words::STATEMENTS.contains(&word);
+        let construct = words::foreign_construct(word).filter(|_| match word {
+            "struct" | "class" | "enum" | "union" | "namespace" => is_pair || next == Kind::OpenBrace,
+            "template" => next == Kind::Less,
+            _ => is_pair,
+        });
+        if let Some((message, hint)) = construct {
+            self.fail(Diagnostic::error(span, message).hint(hint));
+            self.synchronize();
+            return None;
         }
-        if next == Kind::Word && self.kind_at(start + 2) == Kind::OpenParen && !words::is_reserved(word) {
-            // `float area(…)`, `viod f(…)`
-            let types = words::RESERVED[..6].iter().chain(&["vec", "static", "const"]).copied();
-            let meant = words::foreign_type(word).map(|(meant, _)| meant).or_else(|| words::similar(word, types));
-            let error = Diagnostic::error(span, format!("`{word}` is not a type of vv"));
-            return self.fail(match meant.filter(|m| !m.contains(' ')) {
-                Some(meant) => error.fix(format!("did you mean `{meant}`?"), span, meant),
-                None => error.hint("the types are `void`, `bool`, `int`, `double`, `vec`, `vertex` and `mesh`"),
-            });
+        // `float area(…)`, `viod f(…)`
+        if is_pair && self.kind_at(start + 2) == Kind::OpenParen {
+            let ty = self.almost_type(words::RESERVED[..6].iter().copied().chain(["vec"]));
+            return self.function_of(false, ty);
         }
-        if self.kind() == Kind::Word
-            && next == Kind::OpenParen
-            && self.behind_parentheses(start + 1).is_some_and(|b| self.kind_at(b) == Kind::OpenBrace)
-            && !words::is_reserved(word)
-        {
-            let error = Diagnostic::error(span, format!("the function `{word}` says not what it returns"));
+        if is_word && next == Kind::OpenParen && self.has_body_behind(start + 1) {
+            let error = Diagnostic::error(span, format!("the function `{word}` does not say what it returns"));
             let before = Span { end: span.start, ..span };
-            return self.fail(error.fix("write `void` before it if it returns nothing", before, "void "));
+            self.mend(error.fix("write `void` before it if it returns nothing", before, "void "));
+            return self.function_of(false, TypeName { kind: TypeKind::Void, span: before });
         }
-        let error = match self.kind() {
-            Kind::Word if next == Kind::Word && !words::is_reserved(word) && !words::STATEMENTS.contains(&word) => {
-                let expected = ["param", "const", "static"].into_iter().chain(words::RESERVED[..6].iter().copied());
-                let error = Diagnostic::error(span, format!("unknown word `{word}` at file scope"));
-                match words::foreign_type(word).map(|(meant, _)| meant).or_else(|| words::similar(word, expected)) {
-                    Some(meant) if !meant.contains(' ') => error.fix(format!("did you mean `{meant}`?"), span, meant),
-                    _ => error.hint("a file holds functions, `const`, `param`, property blocks and `#include`"),
-                }
-            }
-            _ => Diagnostic::error(span, "statements stand inside functions, as in `void name(mesh& S) { … }`")
-                .hint("if this is meant to be inside the function above, there is a `}` too many before it"),
-        };
-        self.fail(error);
+        if is_pair {
+            let known = words::RESERVED[..6].iter().copied().chain(["vec", "param", "const", "static"]);
+            let error = Diagnostic::error(span, format!("unknown word `{word}` at file scope"));
+            let meant = words::foreign_type(word).map(|(meant, _)| meant).or_else(|| words::similar(word, known));
+            self.fail(match meant.filter(|meant| !meant.contains(' ')) {
+                Some(meant) => error.fix(format!("did you mean `{meant}`?"), span, meant),
+                None => error.hint("a file holds functions, `const`, `param`, property blocks and `#include`"),
+            });
+            return None;
+        }
+        let error = Diagnostic::error(span, "statements stand inside functions");
+        self.fail(if self.follows(&[Kind::CloseBrace]) {
+            error.hint("if this belongs to the function above, there is a `}` too many before it")
+        } else {
+            error.hint("write `void name(mesh& S) { … }` around them")
+        });
+        None
+    }
+
+    /// A word that stands for a type, after saying so.
+    fn almost_type<'w>(&mut self, types: impl IntoIterator<Item = &'w str>) -> TypeName {
+        if let Some(ty) = self.foreign_type_name() {
+            return ty;
+        }
+        let (word, span) = (self.word(), self.here());
+        let error = Diagnostic::error(span, format!("`{word}` is not a type of vv"));
+        let meant = words::similar(word, types);
+        self.mend(match meant {
+            Some(meant) => error.fix(format!("did you mean `{meant}`?"), span, meant),
+            None => error.hint("the types are `void`, `bool`, `int`, `double`, `vec`, `vertex` and `mesh`"),
+        });
+        self.bump_as(Role::Type);
+        TypeName { kind: meant.and_then(words::any_type).unwrap_or(TypeKind::Void), span }
+    }
+
+    /// Whether `(…) {` begins at a token.
+    fn has_body_behind(&self, open: usize) -> bool {
+        self.behind_parentheses(open).is_some_and(|behind| self.kind_at(behind) == Kind::OpenBrace)
     }
 
     /// Whether a function begins here. `vec a(1, 2, 3);` is none.
@@ -140,8 +157,13 @@ impl Parser<'_> {
     }
 
     fn function(&mut self, is_static: bool) -> Option<Item> {
-        let start = self.at;
         let return_type = self.type_name()?;
+        self.function_of(is_static, return_type)
+    }
+
+    /// What follows the type that a function returns.
+    fn function_of(&mut self, is_static: bool, return_type: TypeName) -> Option<Item> {
+        let start = self.at;
         if matches!(self.kind(), Kind::Ampersand | Kind::Star) {
             let sign = self.here();
             let error = Diagnostic::error(sign, "functions return values, not references or pointers");
@@ -154,14 +176,14 @@ impl Parser<'_> {
         let open = self.at;
         self.eat(Kind::OpenParen);
         let parameters = self.parameters();
-        self.close(Kind::CloseParen, open);
-        let span = self.since(start);
+        self.close_list(Kind::CloseParen, open, true);
+        let span = return_type.span.to(self.since(start));
         if self.eat_word("const") {
             let here = self.previous();
             self.mend(Diagnostic::error(here, "a function cannot be `const`").fix("leave it out", here, ""));
         }
         if self.eat(Kind::Semicolon) {
-            let whole = self.since(start);
+            let whole = return_type.span.to(self.previous());
             let error = Diagnostic::error(whole, format!("the function `{}` has no body", name.text));
             self.mend(error.fix("leave this out: functions may stand in any order", whole, ""));
             return None;
@@ -182,7 +204,7 @@ impl Parser<'_> {
             self.bump_as(Role::Type);
             return parameters;
         }
-        while !self.panicking {
+        while !self.panicking && !self.statement_is_over() {
             parameters.extend(self.parameter());
             if !self.eat(Kind::Comma) {
                 break;
@@ -208,6 +230,12 @@ impl Parser<'_> {
         }
         let name = self.name("a parameter");
         let span = self.since(start);
+        if self.kind() == Kind::Ampersand && !self.panicking {
+            let both = name.span.to(self.here());
+            let error = Diagnostic::error(self.here(), "the `&` stands before the name");
+            self.mend(error.fix(format!("write `&{}`", name.text), both, format!("&{}", name.text)));
+            self.bump();
+        }
         if self.kind() == Kind::Assign && !self.panicking {
             let sign = self.here();
             let message = "parameters of functions have no default values";
@@ -219,13 +247,14 @@ impl Parser<'_> {
     }
 
     /// `float`, read as `double`.
-    fn foreign_type_name(&mut self) -> Option<TypeName> {
+    pub(super) fn foreign_type_name(&mut self) -> Option<TypeName> {
         let (word, span) = (self.word(), self.here());
         let (meant, kind) = words::foreign_type(word)?;
+        let kind = kind?;
         let error = Diagnostic::error(span, format!("`{word}` is not a type of vv"));
         self.mend(error.fix(format!("write `{meant}`"), span, meant));
         self.bump_as(Role::Type);
-        Some(TypeName { kind: kind?, span })
+        Some(TypeName { kind, span })
     }
 
     fn constant(&mut self) -> Item {
@@ -256,6 +285,8 @@ impl Parser<'_> {
             } else if let Some(ty) = self.foreign_type_name() {
                 let declarators = self.declarators(ty);
                 fields.push(Declaration { is_const: false, ty, declarators, span: self.since(before) });
+            } else if let Some((message, hint)) = words::foreign_construct(self.word()) {
+                self.fail(Diagnostic::error(self.here(), message).hint(hint));
             } else {
                 self.unexpected("a property such as `double age = 0;`");
             }
