@@ -1,9 +1,16 @@
 //! The vv modeler: owns files, windows, threads and the GPU.
 
 pub mod camera;
+pub mod command;
 pub mod compare;
+pub mod console;
+pub mod document;
 pub mod evaluation;
 pub mod files;
+pub mod gui;
 pub mod library;
 pub mod render;
 pub mod scene;
+pub mod session;
+pub mod watch;
+pub mod worker;

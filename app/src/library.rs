@@ -22,7 +22,21 @@ pub const PROGRAMS: &[Shipped] = &[
 ];
 
 /// The meshes by name.
-pub const MESHES: &[Shipped] = &[];
+pub const MESHES: &[Shipped] = &[
+    Shipped { name: "octahedron.obj", text: include_str!("../../assets/meshes/octahedron.obj") },
+    Shipped { name: "tetrahedron.obj", text: include_str!("../../assets/meshes/tetrahedron.obj") },
+    Shipped { name: "cube.obj", text: include_str!("../../assets/meshes/cube.obj") },
+    Shipped { name: "icosahedron.obj", text: include_str!("../../assets/meshes/icosahedron.obj") },
+    Shipped { name: "dodecahedron.obj", text: include_str!("../../assets/meshes/dodecahedron.obj") },
+    Shipped { name: "torus.obj", text: include_str!("../../assets/meshes/torus.obj") },
+    Shipped { name: "torus-quads.obj", text: include_str!("../../assets/meshes/torus-quads.obj") },
+    Shipped { name: "genus-2.obj", text: include_str!("../../assets/meshes/genus-2.obj") },
+    Shipped { name: "genus-2-quads.obj", text: include_str!("../../assets/meshes/genus-2-quads.obj") },
+    Shipped { name: "tetrapod.obj", text: include_str!("../../assets/meshes/tetrapod.obj") },
+    Shipped { name: "cube-open.obj", text: include_str!("../../assets/meshes/cube-open.obj") },
+    Shipped { name: "cube-open-quads.obj", text: include_str!("../../assets/meshes/cube-open-quads.obj") },
+    Shipped { name: "square-open.obj", text: include_str!("../../assets/meshes/square-open.obj") },
+];
 
 /// The program of a name.
 #[must_use]

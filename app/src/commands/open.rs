@@ -21,14 +21,10 @@ pub fn open(paths: &[PathBuf]) -> Result<(), Exit> {
     if let Some(problem) = no_window(|name| std::env::var_os(name), loader_finds) {
         return fail(&reporter, Exit::NoRenderer, problem);
     }
-    window(mesh, program).or_else(|problem| {
+    app::gui::run(mesh, program).or_else(|problem| {
         let diagnostic = error(format!("the window cannot open: {problem}")).hint(PACKAGES).hint(WITHOUT_WINDOW);
         fail(&reporter, Exit::NoRenderer, diagnostic)
     })
-}
-
-fn window(_mesh: Option<PathBuf>, _program: Option<PathBuf>) -> Result<(), String> {
-    Err("it cannot yet".to_owned())
 }
 
 const WITHOUT_WINDOW: &str = "`vv run PROGRAM -i MESH -o out.obj` works without window";

@@ -1,0 +1,299 @@
+//! Everything a user can ask for: what it is called, which keys mean it, when it makes sense.
+//!
+//! Menus, buttons, keys, panels and tests make commands; [`crate::session::Session::apply`] is the one place that carries
+//! them out. A new command is a variant here, a line in [`Command::describe`], and its effect there.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui::{Key, KeyboardShortcut, Modifiers};
+use vv::diagnostic::Hint;
+use vv::mesh::Value;
+
+use crate::camera::Camera;
+use crate::document::MeshSource;
+use crate::scene::Style;
+use crate::session::{Purpose, Session};
+
+/// A wish.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// An empty program.
+    NewProgram,
+    /// Choose a file.
+    Choose(Purpose),
+    /// A program or a mesh, by its extension.
+    Open(PathBuf),
+    /// A program that ships with vv.
+    OpenExample(&'static str),
+    /// A mesh that ships with vv, or none.
+    UseMesh(MeshSource),
+    /// The program into its file.
+    Save,
+    /// The program into a file.
+    SaveTo(PathBuf),
+    /// The mesh shown into a file.
+    ExportTo(PathBuf),
+    /// Takes what another program wrote into the program's file.
+    TakeFromDisk,
+    /// Goes on with the text in the editor.
+    KeepMine,
+    /// Answers the question whether to save before something that would lose text.
+    AnswerUnsaved(Answer),
+    /// Puts a dialog away.
+    CloseDialog,
+    /// Ends the program.
+    Quit,
+
+    /// The program's text is now this.
+    Edit(Arc<str>),
+    /// Carries out what a diagnostic proposes.
+    Fix(Hint),
+    /// Shows a place of the program in the editor.
+    Reveal(std::ops::Range<usize>),
+    /// Reads the files and computes everything anew.
+    Run,
+
+    /// One generation on.
+    Step,
+    /// One generation back.
+    Back,
+    /// To generation 0.
+    Rewind,
+    /// To any generation.
+    GoTo(u64),
+    /// Steps again and again; and ends that.
+    Play,
+    /// Ends what is being computed.
+    Stop,
+
+    /// The rule that is stepped.
+    ChooseRule(String),
+    /// The value of a parameter.
+    SetParam(String, Value),
+    /// A parameter at the program's own value.
+    ResetParam(String),
+    /// All parameters at the program's own values.
+    ResetParams,
+
+    /// How it is drawn.
+    SetStyle(Style),
+    /// Filled faces on and off.
+    Faces,
+    /// Edges on and off.
+    Edges,
+    /// Vertices on and off.
+    Vertices,
+    /// Smooth shading on and off.
+    Smooth,
+    /// Control mesh on and off.
+    Control,
+    /// From where it is seen.
+    SetCamera(Camera),
+    /// All of the mesh in sight.
+    Fit,
+    /// Light, dark, or what the system says.
+    SetTheme(ThemeChoice),
+    /// A panel on and off.
+    Toggle(Panel),
+}
+
+/// What to do with text that is not saved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    /// Save it, then go on.
+    Save,
+    /// Go on and lose it.
+    Discard,
+}
+
+/// Light or dark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ThemeChoice {
+    /// As the system.
+    #[default]
+    System,
+    /// Light.
+    Light,
+    /// Dark.
+    Dark,
+}
+
+/// The panels around the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Panel {
+    /// Program text.
+    Program,
+    /// Problems and console.
+    Messages,
+    /// Parameters, display, statistics.
+    Inspector,
+}
+
+/// How a command presents itself.
+#[derive(Debug, Clone, Copy)]
+pub struct Description {
+    /// In menus and as accessible name.
+    pub label: &'static str,
+    /// One sentence.
+    pub tooltip: &'static str,
+    /// Keys that mean it, the first is shown.
+    pub shortcuts: &'static [KeyboardShortcut],
+}
+
+const fn key(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::NONE, key)
+}
+
+const fn ctrl(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND, key)
+}
+
+const fn ctrl_shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
+}
+
+impl Command {
+    /// Name, tooltip and keys.
+    #[must_use]
+    pub fn describe(&self) -> Description {
+        let (label, tooltip, shortcuts): (_, _, &'static [KeyboardShortcut]) = match self {
+            Self::NewProgram => ("New program", "begin an empty program", const { &[ctrl(Key::N)] }),
+            Self::Choose(Purpose::OpenProgram) => ("Open program…", "open a .vv file", const { &[ctrl(Key::O)] }),
+            Self::Choose(Purpose::OpenMesh) => {
+                ("Open mesh…", "open an .obj or .off file", const { &[ctrl_shift(Key::O)] })
+            }
+            Self::Choose(Purpose::SaveProgram) => {
+                ("Save program as…", "save the program under another name", const { &[ctrl_shift(Key::S)] })
+            }
+            Self::Choose(Purpose::ExportMesh) => {
+                ("Save mesh as…", "write the mesh shown as .obj or .off", const { &[ctrl(Key::E)] })
+            }
+            Self::Save => ("Save program", "save the program to its file", const { &[ctrl(Key::S)] }),
+            Self::Quit => ("Quit", "close the window", const { &[ctrl(Key::Q)] }),
+            Self::TakeFromDisk => ("Reload", "take the text on disk; the one in the editor is lost", &[]),
+            Self::KeepMine => ("Keep mine", "go on with the text in the editor; saving replaces the file", &[]),
+            Self::Run => {
+                ("Run again", "read the files and compute everything anew", const { &[key(Key::F5), ctrl(Key::Enter)] })
+            }
+            Self::Step => ("Step", "apply the rule once", const { &[key(Key::S), key(Key::ArrowRight)] }),
+            Self::Back => ("Back", "take the last step back", const { &[key(Key::ArrowLeft)] }),
+            Self::Rewind => ("Rewind", "go back to generation 0", const { &[key(Key::Home)] }),
+            Self::Play => ("Play", "step again and again, until stopped", const { &[key(Key::Space)] }),
+            Self::Stop => ("Stop", "end what is being computed", const { &[key(Key::Escape)] }),
+            Self::ResetParams => ("Reset all", "all parameters as the program says", &[]),
+            Self::Faces => ("Faces", "fill the faces; off shows the wireframe", const { &[key(Key::W)] }),
+            Self::Edges => ("Edges", "draw the edges", const { &[key(Key::E)] }),
+            Self::Vertices => ("Vertices", "draw the vertices", const { &[key(Key::V)] }),
+            Self::Smooth => ("Smooth", "shade as if the surface were smooth", const { &[key(Key::N)] }),
+            Self::Control => ("Control mesh", "superimpose the mesh of generation 0", const { &[key(Key::C)] }),
+            Self::Fit => ("Fit view", "bring all of the mesh in sight", const { &[key(Key::F)] }),
+            Self::SetTheme(ThemeChoice::System) => ("System theme", "light or dark as the system is", &[]),
+            Self::SetTheme(ThemeChoice::Light) => ("Light theme", "dark on light", &[]),
+            Self::SetTheme(ThemeChoice::Dark) => ("Dark theme", "light on dark", &[]),
+            Self::Toggle(Panel::Program) => ("Program", "show the program", const { &[ctrl(Key::Num1)] }),
+            Self::Toggle(Panel::Messages) => ("Messages", "show problems and console", const { &[ctrl(Key::Num2)] }),
+            Self::Toggle(Panel::Inspector) => {
+                ("Inspector", "show parameters, display and statistics", const { &[ctrl(Key::Num3)] })
+            }
+            Self::Open(_)
+            | Self::OpenExample(_)
+            | Self::UseMesh(_)
+            | Self::SaveTo(_)
+            | Self::ExportTo(_)
+            | Self::AnswerUnsaved(_)
+            | Self::CloseDialog
+            | Self::Edit(_)
+            | Self::Fix(_)
+            | Self::Reveal(_)
+            | Self::GoTo(_)
+            | Self::ChooseRule(_)
+            | Self::SetParam(..)
+            | Self::ResetParam(_)
+            | Self::SetStyle(_)
+            | Self::SetCamera(_) => ("", "", &[]),
+        };
+        Description { label, tooltip, shortcuts }
+    }
+
+    /// Whether it makes sense now.
+    #[must_use]
+    pub fn is_enabled(&self, session: &Session) -> bool {
+        match self {
+            Self::Back | Self::Rewind => session.document.generation > 0,
+            Self::Step | Self::Play => session.can_step(),
+            Self::Stop => session.is_busy() || session.is_playing(),
+            Self::Choose(Purpose::ExportMesh) => session.frame().is_some(),
+            Self::ResetParams => !session.document.params.is_empty(),
+            Self::TakeFromDisk | Self::KeepMine => session.text_on_disk().is_some(),
+            _ => true,
+        }
+    }
+
+    /// Whether it is a switch, and how it stands.
+    #[must_use]
+    pub fn is_on(&self, session: &Session) -> Option<bool> {
+        let style = &session.document.style;
+        Some(match self {
+            Self::Faces => style.faces,
+            Self::Edges => style.edges,
+            Self::Vertices => style.vertices,
+            Self::Smooth => style.smooth,
+            Self::Control => style.control,
+            Self::Play => session.is_playing(),
+            Self::Toggle(panel) => session.panels.is_open(*panel),
+            Self::SetTheme(theme) => session.theme == *theme,
+            _ => return None,
+        })
+    }
+
+    /// The commands that keys mean.
+    pub const WITH_KEYS: &'static [Self] = &[
+        Self::NewProgram,
+        Self::Choose(Purpose::OpenMesh), // before Ctrl+O, which Ctrl+Shift+O contains
+        Self::Choose(Purpose::OpenProgram),
+        Self::Choose(Purpose::SaveProgram),
+        Self::Choose(Purpose::ExportMesh),
+        Self::Save,
+        Self::Quit,
+        Self::Run,
+        Self::Step,
+        Self::Back,
+        Self::Rewind,
+        Self::Play,
+        Self::Stop,
+        Self::Faces,
+        Self::Edges,
+        Self::Vertices,
+        Self::Smooth,
+        Self::Control,
+        Self::Fit,
+        Self::Toggle(Panel::Program),
+        Self::Toggle(Panel::Messages),
+        Self::Toggle(Panel::Inspector),
+    ];
+}
+
+/// Whether a key acts also while text is being typed.
+#[must_use]
+pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
+    shortcut.modifiers.command || matches!(shortcut.logical_key, Key::F5 | Key::Escape)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_commands_share_a_key() {
+        let mut keys = Vec::new();
+        for command in Command::WITH_KEYS {
+            let description = command.describe();
+            assert!(!description.label.is_empty() && !description.tooltip.is_empty(), "{command:?}");
+            for shortcut in description.shortcuts {
+                assert!(!keys.contains(shortcut), "{shortcut:?} of {command:?} is taken");
+                keys.push(*shortcut);
+            }
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! The window: panels around a viewport.
+//!
+//! ```text
+//!   ┌ menu ─────────────────────────────────────────────┐
+//!   │ tools: generations, rule, progress                 │
+//!   ├ program ──────┬ viewport ───────────────┬ inspector┤
+//!   │ text          │                         │ mesh     │
+//!   │               │                         │ params   │
+//!   ├ messages ─────┤                         │ display  │
+//!   │ problems …    │                         │ counts   │
+//!   └───────────────┴─────────────────────────┴──────────┘
+//! ```
+//!
+//! Panels read the [`Session`] and push [`Command`]s; only the session changes anything. A panel's own state (a cursor, a
+//! texture) stays in the panel.
+
+mod dialogs;
+mod editor;
+mod inspector;
+mod keys;
+mod menu;
+mod messages;
+mod picture;
+mod theme;
+mod toolbar;
+mod viewport;
+mod widgets;
+
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::{egui, egui_wgpu};
+
+use crate::command::{Command, ThemeChoice};
+use crate::render;
+use crate::session::Session;
+
+/// Opens the window and returns when it is closed.
+///
+/// # Errors
+/// When no window can be opened.
+pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>) -> Result<(), WindowError> {
+    let options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("vv")
+            .with_app_id("vv")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([640.0, 420.0])
+            .with_drag_and_drop(true),
+        renderer: eframe::Renderer::Wgpu,
+        wgpu_options: wgpu_options(),
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, mesh, program)?)));
+    eframe::run_native("vv", options, create).map_err(|error| WindowError { cause: error.to_string() })
+}
+
+fn wgpu_options() -> egui_wgpu::WgpuConfiguration {
+    let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.device_descriptor = Arc::new(render::device_descriptor);
+    egui_wgpu::WgpuConfiguration { wgpu_setup: setup.into(), ..Default::default() }
+}
+
+/// Why no window opened, in the words of the window system or the graphics driver.
+#[derive(Debug)]
+pub struct WindowError {
+    cause: String,
+}
+
+impl fmt::Display for WindowError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.cause)
+    }
+}
+
+impl std::error::Error for WindowError {}
+
+/// The window's content.
+pub struct App {
+    session: Session,
+    editor: editor::Editor,
+    viewport: viewport::Viewport,
+    messages: messages::Messages,
+    title: String,
+    quitting: bool,
+}
+
+impl App {
+    /// Opens the files given; for what is not given, something that ships with vv.
+    ///
+    /// # Errors
+    /// When the system gives no threads, or eframe no renderer.
+    pub fn new(
+        cc: &eframe::CreationContext<'_>,
+        mesh: Option<PathBuf>,
+        program: Option<PathBuf>,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        theme::install(&cc.egui_ctx);
+        let render_state = cc.wgpu_render_state.clone().ok_or("the window has no graphics device")?;
+        let ctx = cc.egui_ctx.clone();
+        let session = Session::new(mesh, program, Arc::new(move || ctx.request_repaint()))?;
+        Ok(Self {
+            session,
+            editor: editor::Editor::default(),
+            viewport: viewport::Viewport::new(render_state)?,
+            messages: messages::Messages::default(),
+            title: String::new(),
+            quitting: false,
+        })
+    }
+
+    /// What the window shows.
+    #[must_use]
+    pub fn session(&self) -> &Session {
+        &self.session
+    }
+
+    /// Carries a command out as if it came from a menu.
+    pub fn apply(&mut self, command: Command) {
+        self.session.apply(command);
+    }
+
+    fn panels(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let reveal = self.session.reveal.take();
+        let session = &self.session;
+        let width = ui.available_width();
+        egui::Panel::top("menu").frame(theme::bar(ui)).show(ui, |ui| menu::show(ui, session, commands));
+        egui::Panel::top("tools").frame(theme::bar(ui)).show(ui, |ui| toolbar::show(ui, session, commands));
+        if session.panels.program || session.panels.messages {
+            egui::Panel::left("left")
+                .frame(egui::Frame::NONE)
+                .default_size((width * 0.36).clamp(240.0, 560.0))
+                .size_range(200.0..=(width * 0.6).max(220.0))
+                .show(ui, |ui| {
+                    let height = ui.available_height();
+                    if session.panels.messages && session.panels.program {
+                        egui::Panel::bottom("messages")
+                            .frame(theme::panel(ui))
+                            .resizable(true)
+                            .default_size((height * 0.24).clamp(90.0, 260.0))
+                            .size_range(60.0..=(height * 0.7).max(80.0))
+                            .show(ui, |ui| self.messages.show(ui, session, commands));
+                    } else if session.panels.messages {
+                        let frame = theme::panel(ui);
+                        egui::CentralPanel::default()
+                            .frame(frame)
+                            .show(ui, |ui| self.messages.show(ui, session, commands));
+                    }
+                    if session.panels.program {
+                        let frame = theme::editor(ui);
+                        egui::CentralPanel::default()
+                            .frame(frame)
+                            .show(ui, |ui| self.editor.show(ui, session, reveal, commands));
+                    }
+                });
+        }
+        if session.panels.inspector {
+            egui::Panel::right("inspector")
+                .frame(theme::panel(ui))
+                .default_size((width * 0.19).clamp(190.0, 270.0))
+                .size_range(170.0..=(width * 0.4).max(180.0))
+                .show(ui, |ui| inspector::show(ui, session, commands));
+        }
+        egui::CentralPanel::default()
+            .frame(egui::Frame::NONE)
+            .show(ui, |ui| self.viewport.show(ui, &mut self.session, commands));
+    }
+
+    fn close(&mut self, ctx: &egui::Context) {
+        if self.session.wants_quit() && !self.quitting {
+            self.quitting = true;
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        } else if !self.quitting && ctx.input(|i| i.viewport().close_requested()) {
+            self.session.apply(Command::Quit);
+            if self.session.wants_quit() {
+                self.quitting = true;
+            } else {
+                ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            }
+        }
+    }
+
+    fn set_title(&mut self, ctx: &egui::Context) {
+        let program = &self.session.document.program;
+        let mark = if program.is_modified() { "● " } else { "" };
+        let title = format!("{mark}{} – {} – vv", program.name, self.session.document.mesh.name());
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        if let Some(pause) = self.session.poll() {
+            ctx.request_repaint_after(pause);
+        }
+        ctx.set_theme(match self.session.theme {
+            ThemeChoice::System => egui::ThemePreference::System,
+            ThemeChoice::Light => egui::ThemePreference::Light,
+            ThemeChoice::Dark => egui::ThemePreference::Dark,
+        });
+        self.close(ctx);
+        self.set_title(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let mut commands = Vec::new();
+        if self.session.dialog.is_none() {
+            keys::take(ui.ctx(), &self.session, &mut commands);
+        }
+        keys::take_dropped_files(ui.ctx(), &mut commands);
+        self.panels(ui, &mut commands);
+        dialogs::show(ui.ctx(), &mut self.session, &mut commands);
+        if !commands.is_empty() {
+            // What they change is seen in the next frame.
+            ui.ctx().request_repaint();
+        }
+        for command in commands {
+            self.session.apply(command);
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Questions that must be answered before anything else.
+
+use std::path::PathBuf;
+
+use eframe::egui::{Context, Id, Key, Modal, RichText, TextEdit, Ui};
+
+use crate::command::{Answer, Command};
+use crate::session::{Dialog, Purpose, Session};
+
+/// Shows the one that is open.
+pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+    let name = session.document.program.name.clone();
+    let Some(dialog) = &mut session.dialog else { return };
+    let mut chosen = None;
+    let response = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+        ui.set_width(380.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+        match dialog {
+            Dialog::Unsaved { .. } => unsaved(ui, &name, commands),
+            Dialog::TypePath { purpose, path } => {
+                if let Some(path) = type_path(ui, *purpose, path, commands) {
+                    chosen = Some((*purpose, path));
+                }
+            }
+        }
+    });
+    if response.should_close() {
+        commands.push(Command::CloseDialog);
+    }
+    if let Some((purpose, path)) = chosen {
+        session.chosen(purpose, path);
+    }
+}
+
+fn unsaved(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    ui.heading(format!("Save changes to {name}?"));
+    ui.add_space(4.0);
+    ui.label("The text in the editor is not saved and would be lost.");
+    ui.add_space(12.0);
+    ui.horizontal(|ui| {
+        if ui.button(RichText::new("Save").strong()).clicked() {
+            commands.push(Command::AnswerUnsaved(Answer::Save));
+        }
+        if ui.button("Don't save").clicked() {
+            commands.push(Command::AnswerUnsaved(Answer::Discard));
+        }
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec<Command>) -> Option<PathBuf> {
+    let (title, verb) = match purpose {
+        Purpose::OpenProgram => ("Open program", "Open"),
+        Purpose::OpenMesh => ("Open mesh", "Open"),
+        Purpose::SaveProgram => ("Save program as", "Save"),
+        Purpose::ExportMesh => ("Save mesh as", "Save"),
+    };
+    ui.heading(title);
+    ui.add_space(4.0);
+    let label = ui.label("This system offers no file dialog; type the path of the file.");
+    let response = ui.add(TextEdit::singleline(path).hint_text("path").desired_width(f32::INFINITY));
+    let response = response.labelled_by(label.id);
+    if !response.has_focus() && !response.lost_focus() {
+        response.request_focus();
+    }
+    let typed = PathBuf::from(path.trim());
+    let saves = matches!(purpose, Purpose::SaveProgram | Purpose::ExportMesh);
+    let named = !path.trim().is_empty();
+    if named && saves && typed.exists() {
+        ui.label(RichText::new("This file exists and will be replaced.").color(ui.visuals().warn_fg_color));
+    } else if named && !saves && !typed.is_file() {
+        ui.label(RichText::new("There is no such file.").weak());
+    } else {
+        ui.label(" ");
+    }
+    ui.add_space(8.0);
+    let possible = named && (saves || typed.is_file());
+    let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+    let mut go = false;
+    ui.horizontal(|ui| {
+        go = ui.add_enabled(possible, eframe::egui::Button::new(RichText::new(verb).strong())).clicked();
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+    if possible && (go || entered) {
+        commands.push(Command::CloseDialog);
+        return Some(typed);
+    }
+    None
+}

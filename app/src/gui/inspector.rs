@@ -1,0 +1,182 @@
+//! Mesh, parameters, display, counts.
+
+use eframe::egui::{self, Align, DragValue, Grid, Layout, RichText, ScrollArea, Slider, Ui, Vec2b};
+use vv::ir::{Global, Param};
+use vv::mesh::Value;
+
+use super::widgets::{button, grouped, heading, seconds, switch};
+use crate::command::Command;
+use crate::session::{Purpose, Session};
+use crate::worker::Frame;
+
+/// Shows them.
+pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    ScrollArea::vertical().auto_shrink(Vec2b::FALSE).show(ui, |ui| {
+        heading(ui, "Mesh");
+        ui.horizontal(|ui| {
+            ui.add(egui::Label::new(session.document.mesh.name()).truncate());
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let response = ui.button("Open…").on_hover_text("open an .obj or .off file");
+                if response.clicked() {
+                    commands.push(Command::Choose(Purpose::OpenMesh));
+                }
+            });
+        });
+        ui.separator();
+        parameters(ui, session, commands);
+        heading(ui, "Display");
+        Grid::new("display").num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {
+            switch(ui, session, commands, Command::Faces);
+            switch(ui, session, commands, Command::Smooth);
+            ui.end_row();
+            switch(ui, session, commands, Command::Edges);
+            switch(ui, session, commands, Command::Vertices);
+            ui.end_row();
+        });
+        switch(ui, session, commands, Command::Control);
+        ui.add_space(2.0);
+        button(ui, session, commands, Command::Fit);
+        ui.separator();
+        match session.frame() {
+            Some(frame) => statistics(ui, frame),
+            None => {
+                heading(ui, "Statistics");
+                ui.weak("nothing computed yet");
+            }
+        }
+    });
+}
+
+fn parameters(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let Some(program) = session.program() else { return };
+    if program.params().next().is_none() {
+        return;
+    }
+    ui.horizontal(|ui| {
+        heading(ui, "Parameters");
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            button(ui, session, commands, Command::ResetParams);
+        });
+    });
+    for (_, global, param) in program.params() {
+        let value = session.document.params.get(&global.name).copied();
+        let value = value.filter(|v| v.ty() == global.ty).unwrap_or(param.default);
+        if let Some(value) = parameter(ui, global, param, value) {
+            // At its default a parameter follows the program again.
+            commands.push(if value == param.default {
+                Command::ResetParam(global.name.clone())
+            } else {
+                Command::SetParam(global.name.clone(), value)
+            });
+        }
+    }
+    ui.separator();
+}
+
+/// A field for a parameter; its value if the user has changed it.
+fn parameter(ui: &mut Ui, global: &Global, param: &Param, value: Value) -> Option<Value> {
+    let name = &global.name;
+    match (value, param.range) {
+        (Value::Bool(mut on), _) => ui.checkbox(&mut on, name).changed().then_some(Value::Bool(on)),
+        (Value::Int(mut x), range) => {
+            let label = ui.label(name);
+            let response = match range {
+                Some((Value::Int(low), Value::Int(high))) => slider(ui, Slider::new(&mut x, low..=high)),
+                _ => ui.add(DragValue::new(&mut x).speed(0.1)),
+            };
+            response.labelled_by(label.id).changed().then_some(Value::Int(x))
+        }
+        (Value::Double(mut x), range) => {
+            let label = ui.label(name);
+            let response = match range {
+                Some((Value::Double(low), Value::Double(high))) => {
+                    slider(ui, Slider::new(&mut x, low..=high).smart_aim(true).max_decimals(6))
+                }
+                _ => ui.add(DragValue::new(&mut x).speed(0.01).max_decimals(6)),
+            };
+            response.labelled_by(label.id).changed().then_some(Value::Double(x))
+        }
+        (Value::Vec(mut v), _) => {
+            let label = ui.label(name);
+            let mut changed = false;
+            ui.horizontal(|ui| {
+                for x in [&mut v.x, &mut v.y, &mut v.z] {
+                    let field = ui.add(DragValue::new(x).speed(0.01).max_decimals(4));
+                    changed |= field.labelled_by(label.id).changed();
+                }
+            });
+            changed.then_some(Value::Vec(v))
+        }
+        (Value::Vertex(_), _) => None, // no literal, no field
+    }
+}
+
+fn slider(ui: &mut Ui, slider: Slider<'_>) -> egui::Response {
+    ui.spacing_mut().slider_width = (ui.available_width() - 66.0).max(40.0);
+    ui.add(slider)
+}
+
+fn statistics(ui: &mut Ui, frame: &Frame) {
+    let s = &frame.statistics;
+    heading(ui, "Statistics");
+    let row = |ui: &mut Ui, name: &str, value: String| {
+        let label = ui.weak(name);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| ui.label(value).labelled_by(label.id));
+        ui.end_row();
+    };
+    let grid = |name: &'static str| Grid::new(name).num_columns(2).spacing([12.0, 3.0]);
+    grid("counts").show(ui, |ui| {
+        row(ui, "Vertices", grouped(s.vertices));
+        row(ui, "Edges", grouped(s.edges));
+        row(ui, "Faces", grouped(s.faces));
+        row(ui, "Euler characteristic", s.euler_characteristic.to_string());
+        row(ui, "Genus", s.genus.map_or("–".to_owned(), |g| g.to_string()));
+        row(ui, "Components", grouped(s.components));
+        row(ui, "Boundary loops", grouped(s.boundary_loops));
+    });
+    if !s.valid {
+        ui.label(RichText::new("not a valid rotation system").color(ui.visuals().warn_fg_color));
+    }
+    histogram(ui, "Valences", &s.valences);
+    histogram(ui, "Corners of faces", &s.face_degrees);
+    heading(ui, "Time");
+    let t = frame.timings;
+    grid("times").show(ui, |ui| {
+        row(ui, "Program", seconds(t.step));
+        row(ui, "Closing the step", seconds(t.closing));
+        row(ui, "Faces and counts", seconds(t.faces));
+        row(ui, "Scene", seconds(t.scene));
+    });
+}
+
+/// Bars, one a row; the long tail in one.
+fn histogram(ui: &mut Ui, title: &str, counts: &[(usize, usize)]) {
+    const ROWS: usize = 8;
+    if counts.is_empty() {
+        return;
+    }
+    heading(ui, title);
+    let mut rows: Vec<(String, usize)> = counts.iter().map(|&(x, n)| (x.to_string(), n)).collect();
+    if rows.len() > ROWS {
+        let rest = rows.split_off(ROWS - 1);
+        let total = rest.iter().map(|(_, n)| n).sum();
+        if let (Some((first, _)), Some((last, _))) = (rest.first(), rest.last()) {
+            rows.push((format!("{first}–{last}"), total));
+        }
+    }
+    let most = rows.iter().map(|&(_, n)| n).max().unwrap_or(1).max(1);
+    let small = egui::TextStyle::Small.resolve(ui.style());
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let bar = ui.visuals().hyperlink_color.gamma_multiply(0.55);
+    for (name, n) in rows {
+        let (rect, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), 15.0), egui::Sense::hover());
+        let (left, right) = (rect.left() + 30.0, rect.right() - 52.0);
+        let painter = ui.painter();
+        painter.text(egui::pos2(left - 8.0, rect.center().y), egui::Align2::RIGHT_CENTER, &name, small.clone(), weak);
+        let length = (right - left).max(0.0) * n as f32 / most as f32;
+        let bar_rect = egui::Rect::from_min_size(egui::pos2(left, rect.top() + 3.0), egui::vec2(length.max(1.0), 9.0));
+        painter.rect_filled(bar_rect, 2.0, bar);
+        painter.text(rect.right_center(), egui::Align2::RIGHT_CENTER, grouped(n), small.clone(), text);
+        response.on_hover_text(format!("{}: {n} with {name}", title.to_lowercase()));
+    }
+}

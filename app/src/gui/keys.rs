@@ -1,0 +1,52 @@
+//! Keys and dropped files to commands.
+
+use eframe::egui::{Context, Key};
+
+use crate::command::{self, Command};
+use crate::session::Session;
+
+/// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed.
+pub fn take(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
+    let typing = ctx.egui_wants_keyboard_input();
+    for command in Command::WITH_KEYS {
+        for shortcut in command.describe().shortcuts {
+            if typing && !command::acts_while_typing(shortcut) {
+                continue;
+            }
+            // A key that means nothing now is left to whom it may concern.
+            if !command.is_enabled(session) {
+                continue;
+            }
+            // Shift makes another key of a letter: `S` is not `s`.
+            let exact = ctx.input(|i| !i.modifiers.shift || shortcut.modifiers.shift);
+            if exact && ctx.input_mut(|i| i.consume_shortcut(shortcut)) {
+                commands.push(command.clone());
+            }
+        }
+    }
+    if !typing {
+        let digits = [
+            Key::Num0,
+            Key::Num1,
+            Key::Num2,
+            Key::Num3,
+            Key::Num4,
+            Key::Num5,
+            Key::Num6,
+            Key::Num7,
+            Key::Num8,
+            Key::Num9,
+        ];
+        for (generation, key) in digits.into_iter().enumerate() {
+            if ctx.input(|i| i.modifiers.is_none() && i.key_pressed(key)) {
+                commands.push(Command::GoTo(generation as u64));
+            }
+        }
+    }
+}
+
+/// Opens what was dropped on the window.
+pub fn take_dropped_files(ctx: &Context, commands: &mut Vec<Command>) {
+    let paths = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect::<Vec<_>>());
+    commands.extend(paths.into_iter().map(Command::Open));
+}

@@ -1,0 +1,138 @@
+//! What is wrong, and what the program prints.
+
+use eframe::egui::{self, Align, Label, Layout, RichText, ScrollArea, Sense, TextStyle, Ui, Vec2b};
+use vv::diagnostic::Severity;
+
+use super::theme;
+use crate::command::Command;
+use crate::session::{Problem, Session};
+
+/// The panel's own state: which half is shown.
+#[derive(Default)]
+pub struct Messages {
+    console: bool,
+    /// Errors at the last look, to bring them to the front when there are new ones.
+    errors: usize,
+}
+
+impl Messages {
+    /// Shows them.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+        let problems = session.problems();
+        let (errors, warnings) = (problems.count(Severity::Error), problems.count(Severity::Warning));
+        if errors > 0 && self.errors == 0 {
+            self.console = false;
+        }
+        self.errors = errors;
+        let generation = session.console_generation();
+        let lines = session.console().len(generation);
+        ui.horizontal(|ui| {
+            let all = problems.iter().count();
+            let title = if all == 0 { "Problems".to_owned() } else { format!("Problems ({all})") };
+            let color = match (errors, warnings) {
+                (0, 0) => ui.visuals().text_color(),
+                (0, _) => ui.visuals().warn_fg_color,
+                _ => ui.visuals().error_fg_color,
+            };
+            let tab = ui.selectable_label(!self.console, RichText::new(title).color(color));
+            if tab.accessible_name("Problems").clicked() {
+                self.console = false;
+            }
+            let title = if lines == 0 { "Console".to_owned() } else { format!("Console ({lines})") };
+            if ui.selectable_label(self.console, title).accessible_name("Console").clicked() {
+                self.console = true;
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if self.console && lines > 0 && ui.small_button("Copy").on_hover_text("copy all lines").clicked() {
+                    ui.ctx().copy_text(session.console().lines(generation, 0..lines).join("\n"));
+                }
+            });
+        });
+        ui.add_space(2.0);
+        if self.console {
+            console(ui, session, generation, lines);
+        } else {
+            list(ui, session, commands);
+        }
+    }
+}
+
+fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    ScrollArea::vertical().id_salt("problems").auto_shrink(Vec2b::FALSE).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 3.0;
+        if session.problems().iter().next().is_none() {
+            ui.weak("no problems");
+        }
+        for problem in session.problems().iter() {
+            entry(ui, problem, commands);
+        }
+    });
+}
+
+fn entry(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
+    let diagnostic = &problem.diagnostic;
+    let color = theme::severity(ui.visuals(), diagnostic.severity);
+    let place = match &problem.place {
+        Some(place) if place.own => format!("line {}: ", place.start.line),
+        Some(place) => format!("{}:{}: ", place.file, place.start.line),
+        None => String::new(),
+    };
+    let mut text = egui::text::LayoutJob::default();
+    let font = TextStyle::Body.resolve(ui.style());
+    let format = |color| egui::TextFormat { font_id: font.clone(), color, ..Default::default() };
+    text.append("● ", 0.0, format(color));
+    text.append(&place, 0.0, format(ui.visuals().weak_text_color()));
+    text.append(&diagnostic.message, 0.0, format(ui.visuals().text_color()));
+    let response = ui.add(Label::new(text).sense(Sense::click()).selectable(false));
+    let response = response.on_hover_cursor(egui::CursorIcon::PointingHand);
+    if response.clicked()
+        && let Some(place) = problem.place.as_ref().filter(|p| p.own)
+    {
+        commands.push(Command::Reveal(place.range.clone()));
+    }
+    ui.indent(("details", diagnostic.span, &diagnostic.message), |ui| details(ui, problem, commands));
+}
+
+/// Evidence, hints and fixes; also in the editor's tooltip.
+pub fn details(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
+    for fact in &problem.diagnostic.evidence {
+        ui.add(Label::new(RichText::new(fact).weak()).wrap());
+    }
+    for hint in &problem.diagnostic.hints {
+        ui.horizontal_wrapped(|ui| {
+            ui.add(Label::new(RichText::new(format!("hint: {}", hint.message)).weak()).wrap());
+            let here = problem.place.as_ref().is_some_and(|p| p.own);
+            if here && hint.edit.is_some() && ui.small_button("Fix").on_hover_text("change the text so").clicked() {
+                commands.push(Command::Fix(hint.clone()));
+            }
+        });
+    }
+    for (function, _) in &problem.diagnostic.calls {
+        ui.weak(format!("in {function}"));
+    }
+}
+
+fn console(ui: &mut Ui, session: &Session, generation: u64, lines: usize) {
+    let height = ui.text_style_height(&TextStyle::Monospace);
+    ui.spacing_mut().item_spacing.y = 1.0;
+    let dropped = session.console().dropped();
+    if lines == 0 {
+        ui.weak("what the program prints appears here");
+        return;
+    }
+    ScrollArea::both().id_salt("console").auto_shrink(Vec2b::FALSE).stick_to_bottom(true).show_rows(
+        ui,
+        height,
+        lines,
+        |ui, rows| {
+            if rows.start == 0 && dropped > 0 {
+                ui.weak(format!("{dropped} earlier lines are forgotten"));
+            }
+            // Taken out at once, so that the worker waits for no painting.
+            let lines = session.console().lines(generation, rows);
+            for line in lines {
+                ui.add(Label::new(RichText::new(line).monospace()).extend());
+            }
+        },
+    );
+}

@@ -1,0 +1,81 @@
+//! Generations, the rule, and what the worker is doing.
+
+use eframe::egui::{Align, ComboBox, DragValue, Layout, RichText, Spinner, Ui};
+
+use super::widgets::{Icon, icon_button, seconds, tooltip};
+use crate::command::Command;
+use crate::session::{Session, Stale};
+
+/// Shows them.
+pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let mut tool = |ui: &mut Ui, icon, command: Command, accent| {
+            let description = command.describe();
+            let enabled = command.is_enabled(session);
+            let response = icon_button(ui, icon, description.label, enabled, accent);
+            if response.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
+                commands.push(command);
+            }
+        };
+        tool(ui, Icon::Rewind, Command::Rewind, None);
+        tool(ui, Icon::Back, Command::Back, None);
+        tool(ui, Icon::Step, Command::Step, None);
+        let play = if session.is_playing() { Icon::Pause } else { Icon::Play };
+        tool(ui, play, Command::Play, None);
+        let red = ui.visuals().error_fg_color;
+        tool(ui, Icon::Stop, Command::Stop, Some(red));
+        ui.add_space(8.0);
+        generation(ui, session, commands);
+        ui.add_space(8.0);
+        rule(ui, session, commands);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| progress(ui, session));
+    });
+}
+
+fn generation(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let label = ui.label("Generation");
+    let mut wanted = session.document.generation;
+    let field = DragValue::new(&mut wanted).range(0..=1_000_000).speed(0.05).update_while_editing(false);
+    let response = ui.add(field).labelled_by(label.id).on_hover_text("type or drag to go to a generation");
+    if response.changed() {
+        commands.push(Command::GoTo(wanted));
+    }
+}
+
+fn rule(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let Some(program) = session.program() else { return };
+    let chosen = session.rule().unwrap_or("none");
+    let label = ui.label("Rule");
+    let response = ComboBox::from_id_salt("rule").selected_text(chosen).width(110.0).show_ui(ui, |ui| {
+        for function in program.rules.iter().filter_map(|&r| program.function(r)) {
+            if ui.selectable_label(chosen == function.name, &function.name).clicked() {
+                commands.push(Command::ChooseRule(function.name.clone()));
+            }
+        }
+    });
+    response.response.labelled_by(label.id).on_hover_text("the function that a step applies");
+}
+
+fn progress(ui: &mut Ui, session: &Session) {
+    match session.progress() {
+        // What is done at once needs no announcement.
+        Some((elapsed, generation)) if elapsed > 0.15 => {
+            ui.label(match generation {
+                Some(generation) => format!("generation {generation}, {}", seconds(elapsed)),
+                None => format!("reading, {}", seconds(elapsed)),
+            });
+            ui.add(Spinner::new().size(15.0));
+            ui.label("running");
+        }
+        _ => match session.stale() {
+            Some(Stale::Failed(_)) => {
+                ui.label(RichText::new("error").color(ui.visuals().error_fg_color));
+            }
+            Some(Stale::Stopped) => {
+                ui.label(RichText::new("stopped").color(ui.visuals().warn_fg_color));
+            }
+            None => {}
+        },
+    }
+}

@@ -1,0 +1,238 @@
+//! The picture and the hands on it.
+//!
+//! Left drag turns; right, middle and Shift+left drag shift; the wheel zooms to the cursor; a double click makes the point
+//! under it the pivot.
+
+use eframe::egui::{
+    self, Align2, Color32, CornerRadius, CursorIcon, FontId, Margin, Pos2, Rect, Response, Role, Sense, TextStyle, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
+};
+use eframe::egui_wgpu::RenderState;
+use glam::{DVec2, DVec3};
+use vv::diagnostic::Severity;
+
+use super::picture::Picture;
+use super::theme;
+use super::widgets::{grouped, seconds};
+use crate::camera::{Camera, Ray, picture_point};
+use crate::command::Command;
+use crate::render::{RenderError, Size};
+use crate::scene::{Scene, Style, Theme};
+use crate::session::{Session, Stale};
+use crate::worker::Frame;
+
+/// The panel's own state.
+pub struct Viewport {
+    picture: Picture,
+}
+
+impl Viewport {
+    /// On the window's device.
+    ///
+    /// # Errors
+    /// If the driver refuses a pipeline.
+    pub fn new(state: RenderState) -> Result<Self, RenderError> {
+        Ok(Self { picture: Picture::new(state)? })
+    }
+
+    /// Shows it. Takes [`Session::fit`].
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, commands: &mut Vec<Command>) {
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
+        let frame = session.frame().cloned();
+        let Some(frame) = frame else {
+            empty(ui, rect, session);
+            return;
+        };
+        if frame.mesh.vertex_count() == 0 {
+            empty(ui, rect, session);
+            return;
+        }
+        let style = Style { theme: theme_of(ui), ..session.document.style };
+        let size = pixels(rect, ui.pixels_per_point());
+        let mut camera = session.document.camera;
+        if session.fit && !session.is_busy() {
+            session.fit = false;
+            camera = Camera::fit(camera, frame.scene.bounds(&style), size.aspect());
+            commands.push(Command::SetCamera(camera));
+        }
+        if let Some(moved) = hands(ui, &response, rect, camera, &frame, &style) {
+            camera = moved;
+            commands.push(Command::SetCamera(camera));
+        }
+        match self.picture.texture(size, &frame.scene, &camera, &style) {
+            Ok(texture) => {
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                ui.painter().image(texture, rect, whole, Color32::WHITE);
+            }
+            Err(error) => {
+                ui.painter().rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
+                centered(ui, rect, &["there is no picture", &error.to_string()]);
+            }
+        }
+        overlay(ui, rect, session, &frame);
+    }
+}
+
+/// Whole pixels, at least one.
+fn pixels(rect: Rect, scale: f32) -> Size {
+    let count = |length: f32| (length * scale).round().max(1.0) as u32;
+    Size { width: count(rect.width()), height: count(rect.height()), scale }
+}
+
+fn theme_of(ui: &Ui) -> Theme {
+    if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light }
+}
+
+/// What dragging, scrolling and clicking make of the camera.
+fn hands(ui: &Ui, response: &Response, rect: Rect, camera: Camera, frame: &Frame, style: &Style) -> Option<Camera> {
+    let place = |pos: Pos2| {
+        let at = pos - rect.min;
+        let of = |v: Vec2| DVec2::new(f64::from(v.x), f64::from(v.y));
+        picture_point(of(at), of(rect.size()))
+    };
+    let (primary, shift, delta) = ui.input(|i| (i.pointer.primary_down(), i.modifiers.shift, i.pointer.delta()));
+    if response.dragged()
+        && let Some(pointer) = response.interact_pointer_pos()
+        && delta != Vec2::ZERO
+    {
+        let (from, to) = (place(pointer - delta), place(pointer));
+        let turn = primary && !shift;
+        ui.ctx().set_cursor_icon(if turn { CursorIcon::Grabbing } else { CursorIcon::AllScroll });
+        return Some(if turn { camera.orbit(from, to) } else { camera.pan(from, to) });
+    }
+    let pointer = response.hover_pos()?;
+    if response.double_clicked() {
+        let pivot = pick(&frame.scene, camera.ray(place(pointer)))?;
+        // The eye stays where it is in the direction it looks; only what it turns around changes.
+        return Some(Camera { pivot, ..camera });
+    }
+    let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
+    if scroll == 0.0 && pinch == 1.0 {
+        return None;
+    }
+    let factor = (-f64::from(scroll) / 300.0).exp() / f64::from(pinch);
+    Some(camera.zoom(place(pointer), factor, frame.scene.bounds(style)))
+}
+
+/// Where a ray first meets the surface.
+fn pick(scene: &Scene, ray: Ray) -> Option<DVec3> {
+    let part = &scene.mesh;
+    let point = |i: u32| part.corners.get(i as usize).map(|c| scene.to_world(c.position.into()));
+    let mut nearest: Option<f64> = None;
+    for &[a, b, c] in &part.triangles {
+        let (Some(a), Some(b), Some(c)) = (point(a), point(b), point(c)) else { continue };
+        // Möller and Trumbore, "Fast, minimum storage ray–triangle intersection", 1997.
+        let (ab, ac) = (b - a, c - a);
+        let p = ray.direction.cross(ac);
+        let determinant = ab.dot(p);
+        let from = ray.origin - a;
+        let u = from.dot(p) / determinant;
+        let q = from.cross(ab);
+        let v = ray.direction.dot(q) / determinant;
+        let t = ac.dot(q) / determinant;
+        if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && nearest.is_none_or(|n| t < n) {
+            nearest = Some(t);
+        }
+    }
+    nearest.map(|t| ray.origin + t * ray.direction)
+}
+
+/// What stands over the picture.
+fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
+    let visuals = ui.visuals().clone();
+    if let Some(stale) = session.stale() {
+        ui.painter().rect_filled(rect, 0.0, visuals.panel_fill.gamma_multiply(0.45));
+        let (color, title, text) = match stale {
+            Stale::Failed(message) => (visuals.error_fg_color, "stale: last good result", message.as_str()),
+            Stale::Stopped => (visuals.warn_fg_color, "stale: stopped", "what is wanted was not computed"),
+        };
+        badge(ui, rect, color, title, text);
+    }
+    let s = &frame.statistics;
+    let generation = frame.request.generation;
+    let summary = format!(
+        "generation {generation}   {} vertices   {} edges   {} faces",
+        grouped(s.vertices),
+        grouped(s.edges),
+        grouped(s.faces)
+    );
+    let small = TextStyle::Small.resolve(ui.style());
+    ui.painter().text(
+        rect.left_bottom() + vec2(10.0, -8.0),
+        Align2::LEFT_BOTTOM,
+        summary,
+        small,
+        visuals.weak_text_color(),
+    );
+    if let Some((elapsed, _)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
+        let text = format!("running… {}", seconds(elapsed));
+        pill(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, &text, visuals.hyperlink_color);
+    }
+    if let Some((severity, text)) = session.notice() {
+        let color = match severity {
+            Severity::Note => visuals.text_color(),
+            other => theme::severity(&visuals, other),
+        };
+        pill(ui, rect.center_bottom() + vec2(0.0, -32.0), Align2::CENTER_BOTTOM, text, color);
+    }
+}
+
+/// A sign at the upper edge that cannot be overlooked.
+fn badge(ui: &mut Ui, rect: Rect, color: Color32, title: &str, text: &str) {
+    let width = (rect.width() - 40.0).clamp(60.0, 520.0);
+    let area = Rect::from_center_size(pos2(rect.center().x, rect.top()), vec2(width, 0.0));
+    let builder = egui::UiBuilder::new()
+        .max_rect(Rect::from_min_size(area.min + vec2(0.0, 12.0), vec2(width, rect.height() - 24.0)))
+        .layout(egui::Layout::top_down(egui::Align::Center));
+    ui.scope_builder(builder, |ui| {
+        egui::Frame::NONE
+            .fill(ui.visuals().window_fill)
+            .stroke(egui::Stroke::new(1.5, color))
+            .corner_radius(CornerRadius::same(7))
+            .inner_margin(Margin::symmetric(14, 8))
+            .show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 2.0;
+                ui.label(egui::RichText::new(title).color(color).strong());
+                ui.add(egui::Label::new(text).wrap());
+            });
+    });
+}
+
+fn pill(ui: &Ui, at: Pos2, align: Align2, text: &str, color: Color32) {
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), TextStyle::Body.resolve(ui.style()), color);
+    let padding = vec2(12.0, 5.0);
+    let rect = align.anchor_size(at, galley.size() + 2.0 * padding);
+    ui.painter().rect(
+        rect,
+        CornerRadius::same(12),
+        ui.visuals().window_fill.gamma_multiply(0.94),
+        ui.visuals().window_stroke,
+        egui::StrokeKind::Inside,
+    );
+    ui.painter().galley(rect.min + padding, galley, color);
+}
+
+fn empty(ui: &Ui, rect: Rect, session: &Session) {
+    ui.painter().rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
+    let why = match session.stale() {
+        Some(Stale::Failed(message)) => message.clone(),
+        _ if session.is_busy() => return,
+        Some(Stale::Stopped) => "stopped".to_owned(),
+        None => "drop an .obj or .off file here, choose one of the Meshes, or open one of the Examples".to_owned(),
+    };
+    centered(ui, rect, &["nothing to show yet", &why]);
+}
+
+/// Lines of text in the middle, the first one large.
+fn centered(ui: &Ui, rect: Rect, lines: &[&str]) {
+    let mut y = rect.center().y - 20.0;
+    for (i, line) in lines.iter().enumerate() {
+        let font = if i == 0 { FontId::proportional(18.0) } else { TextStyle::Body.resolve(ui.style()) };
+        let color = if i == 0 { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+        let galley = ui.painter().layout((*line).to_owned(), font, color, (rect.width() - 40.0).max(40.0));
+        let at = pos2(rect.center().x - galley.size().x / 2.0, y);
+        y += galley.size().y + 8.0;
+        ui.painter().galley(at, galley, color);
+    }
+}

@@ -1,0 +1,162 @@
+//! Small parts that several panels use.
+
+use eframe::egui::{
+    Button, Color32, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
+};
+
+use crate::command::Command;
+use crate::session::Session;
+
+/// Line drawings, crisp at any scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Icon {
+    Rewind,
+    Back,
+    Step,
+    Play,
+    Pause,
+    Stop,
+}
+
+impl Icon {
+    fn paint(self, painter: &Painter, rect: Rect, color: Color32) {
+        let at = |x: f32, y: f32| rect.min + vec2(x * rect.width(), y * rect.height());
+        let triangle = |points: [Pos2; 3]| {
+            painter.add(Shape::convex_polygon(points.to_vec(), color, Stroke::NONE));
+        };
+        let bar = |x: f32, width: f32| {
+            painter.rect_filled(Rect::from_min_max(at(x, 0.1), at(x + width, 0.9)), 1.0, color);
+        };
+        match self {
+            Self::Rewind => {
+                bar(0.05, 0.14);
+                triangle([at(0.92, 0.1), at(0.92, 0.9), at(0.26, 0.5)]);
+            }
+            Self::Back => triangle([at(0.78, 0.1), at(0.78, 0.9), at(0.12, 0.5)]),
+            Self::Step => {
+                triangle([at(0.08, 0.1), at(0.74, 0.5), at(0.08, 0.9)]);
+                bar(0.81, 0.14);
+            }
+            Self::Play => triangle([at(0.2, 0.06), at(0.92, 0.5), at(0.2, 0.94)]),
+            Self::Pause => {
+                bar(0.18, 0.22);
+                bar(0.6, 0.22);
+            }
+            Self::Stop => {
+                painter.rect_filled(Rect::from_min_max(at(0.14, 0.14), at(0.86, 0.86)), 1.5, color);
+            }
+        }
+    }
+}
+
+/// A square button with a drawing, named for those who cannot see it.
+pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool, accent: Option<Color32>) -> Response {
+    ui.add_enabled_ui(enabled, |ui| {
+        let (rect, response) = ui.allocate_exact_size(vec2(30.0, 26.0), Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+        let visuals = ui.style().interact(&response);
+        ui.painter().rect(
+            rect,
+            visuals.corner_radius,
+            visuals.weak_bg_fill,
+            visuals.bg_stroke,
+            eframe::egui::StrokeKind::Inside,
+        );
+        let inner = Rect::from_center_size(rect.center(), Vec2::splat(11.0));
+        let color = accent.filter(|_| enabled).unwrap_or(visuals.text_color());
+        icon.paint(ui.painter(), inner, color);
+        response
+    })
+    .inner
+}
+
+/// Tooltip of a command: what it does, and its keys.
+pub fn tooltip(ui: &mut Ui, command: &Command) {
+    let description = command.describe();
+    ui.horizontal(|ui| {
+        ui.label(description.tooltip);
+        let keys: Vec<String> = description.shortcuts.iter().map(|s| ui.ctx().format_shortcut(s)).collect();
+        if !keys.is_empty() {
+            ui.weak(keys.join(", "));
+        }
+    });
+}
+
+/// A command as an entry of a menu.
+pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command) {
+    let description = command.describe();
+    let keys = description.shortcuts.first().map(|s| ui.ctx().format_shortcut(s)).unwrap_or_default();
+    let on = command.is_on(session);
+    let text = match on {
+        Some(true) => format!("✔  {}", description.label),
+        Some(false) => format!("      {}", description.label),
+        None => description.label.to_owned(),
+    };
+    let button = Button::new(text).shortcut_text(keys);
+    let response = ui.add_enabled(command.is_enabled(session), button).accessible_name(description.label);
+    if response.on_hover_text(description.tooltip).clicked() {
+        commands.push(command);
+        ui.close();
+    }
+}
+
+/// A command as a plain button.
+pub fn button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command) {
+    let response = ui.add_enabled(command.is_enabled(session), Button::new(command.describe().label));
+    if response.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
+        commands.push(command);
+    }
+}
+
+/// A switch as a check box.
+pub fn switch(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command) {
+    let mut on = command.is_on(session).unwrap_or(false);
+    let response = ui.checkbox(&mut on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command));
+    if response.changed() {
+        commands.push(command);
+    }
+}
+
+/// The heading of a part of a panel.
+pub fn heading(ui: &mut Ui, text: &str) {
+    ui.add_space(4.0);
+    ui.label(RichText::new(text).strong());
+}
+
+/// `12 345 678`: groups of three.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut result = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            result.push('\u{2009}');
+        }
+        result.push(digit);
+    }
+    result
+}
+
+/// Seconds, in the unit that reads best.
+pub fn seconds(s: f64) -> String {
+    match s {
+        s if s < 1e-3 => format!("{:.0} µs", s * 1e6),
+        s if s < 0.1 => format!("{:.1} ms", s * 1e3),
+        s if s < 1.0 => format!("{:.0} ms", s * 1e3),
+        s => format!("{s:.1} s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_grouped_and_times_have_units() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(1234), "1\u{2009}234");
+        assert_eq!(grouped(123_456_789), "123\u{2009}456\u{2009}789");
+        assert_eq!(seconds(0.000_012), "12 µs");
+        assert_eq!(seconds(0.0123), "12.3 ms");
+        assert_eq!(seconds(2.04), "2.0 s");
+    }
+}

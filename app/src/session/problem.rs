@@ -1,0 +1,82 @@
+//! What is wrong, and where.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use vv::Compilation;
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::source::{FileId, Position, Sources, Span};
+
+/// A diagnostic with its place looked up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// What is wrong.
+    pub diagnostic: Diagnostic,
+    /// Where; `None` for what concerns a mesh or a step as a whole.
+    pub place: Option<Place>,
+}
+
+/// A stretch of a program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file's name.
+    pub file: String,
+    /// Whether it is the text in the editor.
+    pub own: bool,
+    /// Its first character.
+    pub start: Position,
+    /// Bytes of the file.
+    pub range: Range<usize>,
+}
+
+/// What compiling, reading the mesh and running found.
+#[derive(Debug, Clone, Default)]
+pub struct Problems {
+    compiled: Vec<Problem>,
+    mesh: Vec<Problem>,
+    ran: Vec<Problem>,
+}
+
+impl Problems {
+    /// All of them: of the text, of the mesh, of the run.
+    pub fn iter(&self) -> impl Iterator<Item = &Problem> {
+        self.compiled.iter().chain(&self.mesh).chain(&self.ran)
+    }
+
+    /// How many there are of a severity.
+    #[must_use]
+    pub fn count(&self, severity: Severity) -> usize {
+        self.iter().filter(|p| p.diagnostic.severity == severity).count()
+    }
+
+    /// The error to tell of first.
+    #[must_use]
+    pub fn first_error(&self) -> Option<&Problem> {
+        self.iter().find(|p| p.diagnostic.severity == Severity::Error)
+    }
+
+    pub(super) fn compiled(&mut self, compilation: &Compilation) {
+        self.compiled = located(&compilation.diagnostics, &compilation.sources);
+        self.ran.clear();
+    }
+
+    pub(super) fn mesh_read(&mut self, name: &str, diagnostics: Vec<Diagnostic>) {
+        self.mesh = located(&diagnostics, &Sources::default());
+        for problem in &mut self.mesh {
+            problem.diagnostic.message = format!("{name}: {}", problem.diagnostic.message);
+        }
+    }
+
+    pub(super) fn ran(&mut self, diagnostics: &[Diagnostic], sources: &Arc<Sources>) {
+        self.ran = located(diagnostics, sources);
+    }
+}
+
+fn located(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<Problem> {
+    let place = |span: Span| {
+        let (file, start, _) = sources.locate(span)?;
+        let range = span.start as usize..span.end as usize;
+        Some(Place { file: crate::document::file_name(file.as_ref()), own: span.file == FileId::MAIN, start, range })
+    };
+    diagnostics.iter().map(|d| Problem { diagnostic: d.clone(), place: d.span.and_then(place) }).collect()
+}

@@ -1,0 +1,205 @@
+//! Tells when the content of a file has changed, however it was written.
+//!
+//! Editors write in place, write beside and rename, or delete and create anew; so the folders are watched, not the
+//! files, and what counts is what stands in a file, not when. Folders that are themselves replaced, and file systems that
+//! tell nothing, are caught by looking once a second.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread::JoinHandle;
+use std::time::{Duration, SystemTime};
+
+use notify_debouncer_full::notify::{RecommendedWatcher, RecursiveMode};
+use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
+
+/// How long a file must rest before it is looked at: the pieces of one write belong together.
+const REST: Duration = Duration::from_millis(80);
+/// How often files are looked at without having been told.
+const LOOK: Duration = Duration::from_secs(1);
+
+/// Watches files from a thread of its own, which ends when this is dropped.
+pub struct Watch {
+    messages: Sender<Message>,
+    changes: Receiver<PathBuf>,
+    files: BTreeSet<PathBuf>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// Time and length.
+type Stamp = Option<(SystemTime, u64)>;
+
+enum Message {
+    Files(BTreeMap<PathBuf, Stamp>),
+    Event,
+    Close,
+}
+
+impl Watch {
+    /// Starts the thread. `wake` is called from it when a file has changed.
+    ///
+    /// # Errors
+    /// When the system gives no thread.
+    pub fn start(wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let (messages, inbox) = mpsc::channel();
+        let (sender, changes) = mpsc::channel();
+        let events = messages.clone();
+        let thread = std::thread::Builder::new().name("watch".to_owned()).spawn(move || {
+            let mut post = Post { files: BTreeMap::new(), folders: BTreeSet::new(), debouncer: None };
+            post.debouncer = new_debouncer(REST, None, move |_: DebounceEventResult| {
+                let _ = events.send(Message::Event);
+            })
+            .map_err(|error| log::warn!("files are looked at once a second only: {error}"))
+            .ok();
+            post.stand(&inbox, &sender, &wake);
+        })?;
+        Ok(Self { messages, changes, files: BTreeSet::new(), thread: Some(thread) })
+    }
+
+    /// Watches these files, existing or not, and no others. What they hold now is no change.
+    pub fn set_files(&mut self, files: impl IntoIterator<Item = PathBuf>) {
+        let files: BTreeSet<PathBuf> = files.into_iter().collect();
+        if files != self.files {
+            // The stamp is taken here and now: what is written before the thread wakes up is a change.
+            let stamped = files.iter().map(|path| (path.clone(), stamp(path))).collect();
+            self.files = files;
+            let _ = self.messages.send(Message::Files(stamped));
+        }
+    }
+
+    /// A file whose content has changed. One that was deleted counts once it is there again.
+    #[must_use]
+    pub fn change(&self) -> Option<PathBuf> {
+        self.changes.try_recv().ok()
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        let _ = self.messages.send(Message::Close);
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+/// The state of the thread.
+struct Post {
+    files: BTreeMap<PathBuf, Seen>,
+    folders: BTreeSet<PathBuf>,
+    debouncer: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
+}
+
+/// What a file was like when it was looked at last.
+#[derive(Default)]
+struct Seen {
+    /// If it is the same and nobody tells of an event, the content is not read.
+    stamp: Stamp,
+    content: Option<u64>,
+}
+
+impl Post {
+    fn stand(&mut self, inbox: &Receiver<Message>, changes: &Sender<PathBuf>, wake: &dyn Fn()) {
+        loop {
+            let changed = match inbox.recv_timeout(LOOK) {
+                Ok(Message::Close) | Err(RecvTimeoutError::Disconnected) => return,
+                Ok(Message::Files(files)) => self.set_files(files),
+                Ok(Message::Event) => self.look(true),
+                Err(RecvTimeoutError::Timeout) => self.look(false),
+            };
+            if !changed.is_empty() {
+                changed.into_iter().for_each(|path| drop(changes.send(path)));
+                wake();
+            }
+        }
+    }
+
+    fn look(&mut self, told: bool) -> Vec<PathBuf> {
+        self.watch_folders();
+        self.files.iter_mut().filter_map(|(path, seen)| seen.look(path, told).then(|| path.clone())).collect()
+    }
+
+    fn set_files(&mut self, files: BTreeMap<PathBuf, Stamp>) -> Vec<PathBuf> {
+        self.files.retain(|path, _| files.contains_key(path));
+        let mut changed = Vec::new();
+        for (path, stamp) in files {
+            if self.files.contains_key(&path) {
+                continue;
+            }
+            let mut seen = Seen::default();
+            seen.look(&path, true);
+            if seen.stamp != stamp {
+                changed.push(path.clone());
+            }
+            self.files.insert(path, seen);
+        }
+        self.watch_folders();
+        changed
+    }
+
+    fn watch_folders(&mut self) {
+        let Some(debouncer) = &mut self.debouncer else { return };
+        let folder = |path: &PathBuf| match path.parent() {
+            Some(parent) if parent != Path::new("") => parent.to_owned(),
+            _ => PathBuf::from("."),
+        };
+        // A folder that was deleted is watched again when it is back.
+        self.folders.retain(|folder| {
+            let exists = folder.is_dir();
+            if !exists {
+                let _ = debouncer.unwatch(folder);
+            }
+            exists
+        });
+        let wanted: BTreeSet<PathBuf> = self.files.keys().map(folder).filter(|f| f.is_dir()).collect();
+        for folder in self.folders.difference(&wanted) {
+            let _ = debouncer.unwatch(folder);
+        }
+        let new: Vec<PathBuf> = wanted.difference(&self.folders).cloned().collect();
+        self.folders.retain(|folder| wanted.contains(folder));
+        for folder in new {
+            if debouncer.watch(&folder, RecursiveMode::NonRecursive).is_ok() {
+                self.folders.insert(folder);
+            }
+        }
+    }
+}
+
+impl Seen {
+    /// Whether the content is another than at the last look. A file that cannot be read has not changed: it is on its
+    /// way.
+    fn look(&mut self, path: &Path, told: bool) -> bool {
+        let stamp = stamp(path);
+        if !told && stamp == self.stamp {
+            return false;
+        }
+        self.stamp = stamp;
+        let Some(content) = fingerprint(path) else { return false };
+        self.content.replace(content) != Some(content)
+    }
+}
+
+fn stamp(path: &Path) -> Stamp {
+    std::fs::metadata(path).and_then(|m| Ok((m.modified()?, m.len()))).ok()
+}
+
+fn fingerprint(path: &Path) -> Option<u64> {
+    struct Sink(DefaultHasher);
+    impl std::io::Write for Sink {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            self.0.write(bytes);
+            Ok(bytes.len())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Ok(())
+        }
+    }
+    let mut file = std::fs::File::open(path).ok()?;
+    if !file.metadata().ok()?.is_file() {
+        return None;
+    }
+    let mut sink = Sink(DefaultHasher::new());
+    std::io::copy(&mut file, &mut sink).ok()?.hash(&mut sink.0);
+    Some(sink.0.finish())
+}
