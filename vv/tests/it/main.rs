@@ -8,5 +8,6 @@
 )]
 
 mod files;
+mod manual;
 mod mesh;
 mod shapes;
