@@ -266,7 +266,6 @@ impl<'t> Parser<'t> {
                 diagnostic.hint(format!("name a vertex between `{earlier}` and `in`"))
             }
             (Kind::Word, "in") => diagnostic.hint("membership is asked with `is x in v`"),
-            (Kind::Word, _) if earlier == "any" => diagnostic.hint("write `any in v`"),
             (Kind::Word, "nb" | "nb_of") => {
                 diagnostic.hint("the ring of a vertex is set with `make {a, b, c} nb_of v`")
             }
@@ -311,15 +310,15 @@ impl<'t> Parser<'t> {
     // Finding back
 
     /// Takes the bracket that closes the one at token `open`; if it is not there, goes on behind it where it can be
-    /// found in the same statement.
-    fn close(&mut self, close: Kind, open: usize) {
-        self.close_list(close, open, false);
+    /// found in the same statement. Whether nothing was left out.
+    fn close(&mut self, close: Kind, open: usize) -> bool {
+        self.close_list(close, open, false)
     }
 
     /// As [`Parser::close`]; `in_list`: there might have been a comma, too.
-    fn close_list(&mut self, close: Kind, open: usize, in_list: bool) {
+    fn close_list(&mut self, close: Kind, open: usize, in_list: bool) -> bool {
         if self.eat(close) {
-            return;
+            return true;
         }
         let sign = if close == Kind::CloseParen { ")" } else { "]" };
         let opening = self.span_at(open);
@@ -331,7 +330,7 @@ impl<'t> Parser<'t> {
                 end,
                 sign,
             ));
-            return;
+            return true;
         }
         if !self.panicking {
             let comma = if in_list { "`,` or " } else { "" };
@@ -345,11 +344,11 @@ impl<'t> Parser<'t> {
                 kind if kind == close && depth == 0 => {
                     self.bump();
                     self.panicking = false;
-                    return;
+                    return false;
                 }
                 Kind::OpenParen | Kind::OpenBracket => depth += 1,
                 Kind::CloseParen | Kind::CloseBracket if depth > 0 => depth -= 1,
-                _ if self.statement_is_over() => return,
+                _ if self.statement_is_over() => return false,
                 _ => {}
             }
             self.bump();

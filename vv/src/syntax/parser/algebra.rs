@@ -316,7 +316,11 @@ impl Parser<'_> {
         } else {
             words::PREFIXES.contains(&word) && self.begins_operation(start)
         };
-        if !applies {
+        let lacks_in = word == "any" && !applies && !before_body && self.begins_operation(start);
+        if lacks_in && self.kind_at(start + 1) != Kind::OpenParen && !self.token(start + 1).new_line {
+            let here = self.here();
+            self.mend(Diagnostic::error(here, "expected `in` after `any`").fix("write `any in v`", here, "any in"));
+        } else if !applies {
             let primary = self.primary();
             return self.postfix(primary, before_body);
         }
@@ -334,7 +338,9 @@ impl Parser<'_> {
         let begin = self.span_at(start);
         match word {
             "any" => {
-                self.bump_as(Role::Algebra);
+                if self.at_infix("in") {
+                    self.take_infix();
+                }
                 let ring = self.unary_before(before_body);
                 let span = begin.to(ring.expr.span);
                 self.tall(ExprKind::Any { ring: Box::new(ring.expr) }, span, ring.height)

@@ -57,6 +57,7 @@ impl Parser<'_> {
             }
             let init = self.initializer(ty, &name);
             declarators.push(Declarator { name, init });
+            self.recover_declarator();
             if !self.eat(Kind::Comma) {
                 break;
             }
@@ -68,6 +69,33 @@ impl Parser<'_> {
             }
         }
         declarators
+    }
+
+    /// After a broken initializer goes on with the next variable of the same declaration.
+    fn recover_declarator(&mut self) {
+        let ends = self.statement_is_over() || self.token(self.at).new_line || words::leads(self.word());
+        if self.kind() == Kind::Comma || (ends && !self.panicking) || self.kind() == Kind::CloseParen {
+            return;
+        }
+        self.unexpected("`;`");
+        let mut depth = 0_u32;
+        while !self.statement_is_over() {
+            match self.kind() {
+                Kind::OpenParen | Kind::OpenBracket => depth += 1,
+                Kind::CloseParen | Kind::CloseBracket => depth = depth.saturating_sub(1),
+                Kind::Comma if depth == 0 && self.declarator_at(self.at + 1) => {
+                    self.panicking = false;
+                    return;
+                }
+                _ => {}
+            }
+            self.bump();
+        }
+    }
+
+    fn declarator_at(&self, at: usize) -> bool {
+        self.kind_at(at) == Kind::Word
+            && matches!(self.kind_at(at + 1), Kind::Assign | Kind::Comma | Kind::Semicolon | Kind::OpenParen)
     }
 
     fn initializer(&mut self, ty: TypeName, name: &Name) -> Option<Expr> {

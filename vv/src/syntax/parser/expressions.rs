@@ -1,10 +1,11 @@
 //! Expressions: operators by precedence, and the queries of the algebra.
 
 use super::super::lexer::Kind;
-use super::super::tree::{BinaryOp, Expr, ExprKind, Name, Step, StepPosition, UnaryOp};
+use super::super::tree::{BinaryOp, Expr, ExprKind, Name, Step, StepPosition, TypeKind, UnaryOp};
 use super::super::words;
 use super::{Parser, Role, Tall, grow};
 use crate::diagnostic::Diagnostic;
+use crate::source::Span;
 
 /// Operators between operands, the loosest first; all of them group from the left.
 #[rustfmt::skip]
@@ -288,16 +289,36 @@ impl Parser<'_> {
             return self.cast(open);
         }
         let inner = self.assignment();
+        if self.kind() == Kind::Comma && !self.panicking {
+            return self.coordinates(open, inner);
+        }
         let second = self.eat(Kind::Bar).then(|| self.assignment());
-        self.close(Kind::CloseParen, open);
+        let closed = self.close(Kind::CloseParen, open);
         let span = self.since(open);
         match second {
+            _ if !closed => self.tall(ExprKind::Error, span, 0),
             Some(second) => {
                 let height = inner.height.max(second.height);
                 self.tall(ExprKind::Edge(Box::new(inner.expr), Box::new(second.expr)), span, height)
             }
             None => self.tall(ExprKind::Paren(Box::new(inner.expr)), span, inner.height),
         }
+    }
+
+    /// `(x, y, z)`, meant as `vec(x, y, z)`.
+    fn coordinates(&mut self, open: usize, first: Tall) -> Tall {
+        let here = self.here();
+        let opening = self.span_at(open);
+        let error = Diagnostic::error(here, "expected `)`, found `,`").label(opening, "to close this");
+        let before = Span { end: opening.start, ..opening };
+        self.mend(error.fix("a vector is written `vec(x, y, z)`", before, "vec"));
+        self.bump();
+        let (rest, height) = self.list(Kind::CloseParen);
+        let closed = self.close_list(Kind::CloseParen, open, true);
+        let span = self.since(open);
+        let arguments: Vec<Expr> = [first.expr].into_iter().chain(rest).collect();
+        let kind = if closed { Self::call(TypeKind::Vec, opening, arguments) } else { ExprKind::Error };
+        self.tall(kind, span, height.max(first.height))
     }
 
     /// `(double)n`, meant as `double(n)`.
@@ -396,9 +417,11 @@ impl Parser<'_> {
                     let callee = Name { text: callee.clone(), span: of.expr.span };
                     self.bump();
                     let (arguments, height) = self.list(Kind::CloseParen);
-                    self.close_list(Kind::CloseParen, start, true);
+                    let closed = self.close_list(Kind::CloseParen, start, true);
                     let span = begin.to(self.previous());
-                    of = self.tall(ExprKind::Call { callee, arguments }, span, height);
+                    // Of a broken list nobody shall count the arguments.
+                    let call = if closed { ExprKind::Call { callee, arguments } } else { ExprKind::Error };
+                    of = self.tall(call, span, height);
                 }
                 Kind::Dollar | Kind::Dot => {
                     let dollar = self.kind() == Kind::Dollar;
