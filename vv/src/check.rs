@@ -46,6 +46,7 @@ pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)]) -> (Program, Vec<Di
     checker.declare_globals(files);
     let functions = checker.define_functions();
     checker.warn_of_missing_synchronize();
+    checker.warn_of_copied_mesh();
     let program = Program {
         rules: checker.rules.clone(),
         start: checker.start,
@@ -58,9 +59,6 @@ pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)]) -> (Program, Vec<Di
     };
     (program, checker.diagnostics)
 }
-
-/// Expressions and statements may lie this deep in each other; what follows (engines, dropping the tree) recurses too.
-const MAX_DEPTH: u32 = 1000;
 
 struct Checker<'a> {
     sources: &'a Sources,
@@ -78,7 +76,6 @@ struct Checker<'a> {
     mesh_properties: Properties<'a>,
     effects: Vec<effects::Effects>,
     body: Body<'a>,
-    depth: u32,
     searches_left: Cell<u32>,
 }
 
@@ -123,9 +120,12 @@ impl<'a> Checker<'a> {
             mesh_properties: Properties::default(),
             effects: Vec::new(),
             body: Body::default(),
-            depth: 0,
             searches_left: Cell::new(suggest::MAX_SEARCHES),
         }
+    }
+
+    fn define_functions(&mut self) -> Vec<Function> {
+        (0..self.signatures.len()).map(|i| self.define_function(FunctionId(i as u32))).collect()
     }
 
     fn properties(&self, of: Element) -> &Properties<'a> {
@@ -158,24 +158,9 @@ impl<'a> Checker<'a> {
     fn text(&self, span: Span) -> &'a str {
         self.sources.text(span)
     }
-
-    /// Runs `f` one level deeper, on more stack if there is little; `None` and an error if that is too deep.
-    fn deeper<T>(&mut self, span: Span, f: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
-        if self.depth >= MAX_DEPTH {
-            return self.fail(
-                Diagnostic::error(span, format!("this lies deeper than {MAX_DEPTH} levels"))
-                    .hint("split it with variables or functions of its own"),
-            );
-        }
-        self.depth += 1;
-        let result = stacker::maybe_grow(128 << 10, 1 << 20, || f(self));
-        self.depth -= 1;
-        result
-    }
 }
 
-impl<'a> Checker<'a> {
-    fn define_functions(&mut self) -> Vec<Function> {
-        (0..self.signatures.len()).map(|i| self.define_function(FunctionId(i as u32))).collect()
-    }
+/// Runs what recurses, on more stack if there is little. The parser bounds how deep trees are.
+fn with_stack<T>(f: impl FnOnce() -> T) -> T {
+    stacker::maybe_grow(128 << 10, 1 << 20, f)
 }

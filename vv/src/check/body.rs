@@ -2,13 +2,14 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::ir::{Function, FunctionId, Local, LocalId, Type};
 use crate::mesh;
 use crate::source::Span;
 
 use super::Checker;
 use super::effects::Effects;
+use super::operator::a;
 
 /// The function being checked, or file scope.
 #[derive(Default)]
@@ -143,13 +144,17 @@ impl<'a> Checker<'a> {
         for parameter in new {
             self.declare(parameter);
         }
+        let reported = self.diagnostics.len();
         let mut statements = Vec::new();
         let falls_through = self.statements(&body.statements, &mut statements);
         if falls_through && returns != Type::Void {
             self.missing_return(id);
         }
         self.close_scope();
-        self.warn_of_unused_variables();
+        // What is faulty may have been the use.
+        if !self.diagnostics.iter().skip(reported).any(|d| d.severity == Severity::Error) {
+            self.warn_of_unused_variables();
+        }
         let done = std::mem::take(&mut self.body);
         self.effects.push(done.effects);
         let parameters = self.signatures[index].parameters.iter().map(|p| p.passing).collect();
@@ -160,9 +165,9 @@ impl<'a> Checker<'a> {
         let Some(s) = self.signatures.get(id.0 as usize) else { return };
         let (name, returned, span, at) = (s.name, s.return_span, s.span, s.body.span);
         let end = at.map_or(span, |b| Span { start: b.end.saturating_sub(1).max(b.start), ..b });
-        let returned_text = self.text(returned);
+        let returned_type = a(s.returns);
         self.report(
-            Diagnostic::error(end, format!("`{name}` may end here without returning a `{returned_text}`"))
+            Diagnostic::error(end, format!("`{name}` may end here without returning {returned_type}"))
                 .label(returned, "promised here"),
         );
     }

@@ -6,7 +6,7 @@ use crate::ir::{Binary, Comparison, Conversion, Expr, ExprKind, Unary};
 use crate::mesh::Value;
 use crate::source::Span;
 
-use super::{Checker, GlobalValue};
+use super::{Checker, GlobalValue, with_stack};
 
 /// Why there is no value; `None` if that was reported already.
 type Fault = Option<(Span, &'static str)>;
@@ -24,7 +24,7 @@ impl Checker<'_> {
     }
 
     fn evaluate(&self, e: &Expr, varies: &mut bool) -> Result<Value, Fault> {
-        stacker::maybe_grow(128 << 10, 1 << 20, || self.evaluate_node(e, varies))
+        with_stack(|| self.evaluate_node(e, varies))
     }
 
     fn evaluate_node(&self, e: &Expr, varies: &mut bool) -> Result<Value, Fault> {

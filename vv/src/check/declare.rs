@@ -129,6 +129,25 @@ impl<'a> Checker<'a> {
         self.signatures.push(signature);
     }
 
+    /// Where there is no step at all, `void f(mesh S)` was hardly meant to be none.
+    pub(super) fn warn_of_copied_mesh(&mut self) {
+        if !self.rules.is_empty() {
+            return;
+        }
+        let copied = self.signatures.iter().find(|s| {
+            let [p] = &s.parameters[..] else { return false };
+            let copies = p.ty == Some(Type::Mesh) && p.passing == Passing::Value && !p.is_const;
+            s.span.file == FileId::MAIN && s.returns == Type::Void && copies
+        });
+        if let Some((name, span)) = copied.and_then(|s| Some((s.name, s.parameters.first()?.span))) {
+            let at = Span { end: span.start, ..span };
+            self.report(
+                Diagnostic::warning(span, format!("`{name}` gets a copy of the mesh, so it is no step of the modeler"))
+                    .fix("take the mesh itself, `mesh& S`", at, "& "),
+            );
+        }
+    }
+
     /// Constants, parameters and properties, in the order of the text.
     pub(super) fn declare_globals(&mut self, files: &'a [(FileId, Ast)]) {
         self.body.file_scope = true;

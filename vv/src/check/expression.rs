@@ -1,16 +1,16 @@
 //! Expressions.
 
-use crate::builtins::{Builtin, Code};
+use crate::builtins::{Builtin, Code, type_name};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{Argument, Compound, Expr, ExprKind, FunctionId, Passing, Place, Step, StepPosition, Type, Unary};
 use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
 use crate::syntax::tree::{self, BinaryOp, ExprKind as Tree, UnaryOp};
 
-use super::Checker;
-use super::operator::{Way, common_number, name as type_text, operation, symbol, way};
+use super::operator::{Way, a, common_number, operation, symbol, way};
 use super::place::{Named, Typed, bare};
 use super::suggest::Wanted;
+use super::{Checker, with_stack};
 
 const BOOL: Type = Type::Value(ValueType::Bool);
 const INT: Type = Type::Value(ValueType::Int);
@@ -20,7 +20,7 @@ const VERTEX: Type = Type::Value(ValueType::Vertex);
 impl<'a> Checker<'a> {
     /// An expression of any type.
     pub(super) fn expression(&mut self, e: &'a tree::Expr) -> Option<Expr> {
-        self.deeper(e.span, |c| c.node(e))
+        with_stack(|| self.node(e))
     }
 
     /// An expression that has a value: no mesh, not void.
@@ -33,18 +33,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A condition; an assignment in one needs parentheses of its own.
     pub(super) fn condition(&mut self, e: &'a tree::Expr) -> Option<Expr> {
-        if let Tree::Assign { op: None, target, value } = &e.kind {
-            let between = self.text(Span { start: target.span.end, end: value.span.start, ..e.span });
-            let fixed =
-                format!("{}{}{}", self.text(target.span), between.replacen('=', "==", 1), self.text(value.span));
-            self.report(
-                Diagnostic::warning(e.span, "this condition stores a value")
-                    .fix(format!("to compare write `{fixed}`"), e.span, fixed)
-                    .hint("if storing is meant, put it in parentheses"),
-            );
-        }
         let e = self.value(e)?;
         self.truth(e)
     }
@@ -179,10 +168,7 @@ impl<'a> Checker<'a> {
     fn no_operation<T>(&mut self, op: BinaryOp, left: &Expr, right: &Expr, span: Span) -> Option<T> {
         let (l, r) = (left.ty, right.ty);
         let (left_text, right_text) = (self.text(left.span), self.text(right.span));
-        let error = Diagnostic::error(
-            span,
-            format!("`{}` does not work on a `{}` and a `{}`", symbol(op), type_text(l), type_text(r)),
-        );
+        let error = Diagnostic::error(span, format!("`{}` does not work on {} and {}", symbol(op), a(l), a(r)));
         let vec = Type::Value(ValueType::Vec);
         let zero = |e: &Expr| matches!(e.kind, ExprKind::Constant(Value::Int(0)));
         let error = match op {
@@ -235,7 +221,7 @@ impl<'a> Checker<'a> {
         if ty != otherwise.ty {
             return self.fail(Diagnostic::error(
                 span,
-                format!("`? :` cannot choose between a `{}` and a `{}`", type_text(ty), type_text(otherwise.ty)),
+                format!("`? :` cannot choose between {} and {}", a(ty), a(otherwise.ty)),
             ));
         }
         if ty == Type::Void {
@@ -303,9 +289,9 @@ impl<'a> Checker<'a> {
                 return self.fail(Diagnostic::error(
                     span,
                     format!(
-                        "the result is a `{}`, which a `{}` cannot hold",
-                        type_text(Type::Value(operation.result)),
-                        type_text(Type::Value(ty))
+                        "the result is {}, which {} cannot hold",
+                        a(Type::Value(operation.result)),
+                        a(Type::Value(ty))
                     ),
                 ));
             }
@@ -318,10 +304,7 @@ impl<'a> Checker<'a> {
         let Typed { place, ty } = self.target(target)?;
         if !matches!(ty, ValueType::Int | ValueType::Double) {
             let sign = if by == Step::Up { "++" } else { "--" };
-            return self.fail(Diagnostic::error(
-                span,
-                format!("`{sign}` counts, and a `{}` cannot", type_text(Type::Value(ty))),
-            ));
+            return self.fail(Diagnostic::error(span, format!("`{sign}` counts, and {} cannot", a(Type::Value(ty)))));
         }
         Some(Expr { kind: ExprKind::Step(Box::new(place), by, position), ty: Type::Value(ty), span })
     }
@@ -359,7 +342,7 @@ impl<'a> Checker<'a> {
         let types: Vec<ValueType> = values.iter().filter_map(|e| value_of(e.ty)).collect();
         let fitting = rows.iter().filter_map(|&row| Some((effort(&types, row.parameters())?, row)));
         let Some((_, builtin)) = fitting.min_by_key(|&(effort, _)| effort) else {
-            let given: Vec<&str> = types.iter().map(|&t| type_text(Type::Value(t))).collect();
+            let given: Vec<&str> = types.iter().map(|&t| type_name(t)).collect();
             let mut error = Diagnostic::error(span, format!("`{name}` does not take ({})", given.join(", ")));
             for row in rows {
                 error = error.evidence(format!("`{row}`: {}", row.doc()));
@@ -457,9 +440,9 @@ impl<'a> Checker<'a> {
             Named::Local(_, found) => self.fail(Diagnostic::error(
                 inner.span,
                 format!(
-                    "`{function}` changes its `{parameter}`, so a `{}` variable must be given, not a `{}`",
-                    type_text(ty),
-                    type_text(found)
+                    "`{function}` changes its `{parameter}`, so {} variable must be given, not {}",
+                    a(ty),
+                    a(found)
                 ),
             )),
             Named::Global(..) | Named::Number(_) => self.fail(Diagnostic::error(

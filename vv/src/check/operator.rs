@@ -38,6 +38,13 @@ pub(super) fn name(ty: Type) -> &'static str {
     }
 }
 
+/// A type with its article.
+pub(super) fn a(ty: Type) -> String {
+    let name = name(ty);
+    let article = if name == "int" { "an" } else { "a" };
+    format!("{article} `{name}`")
+}
+
 pub(super) fn symbol(op: BinaryOp) -> &'static str {
     match op {
         BinaryOp::Add => "+",
@@ -197,10 +204,13 @@ impl<'a> Checker<'a> {
 
     /// Reports that `e` is not of the type needed.
     pub(super) fn mismatch<T>(&mut self, e: &Expr, wanted: Type) -> Option<T> {
+        if e.ty == Type::Void {
+            return self.fail(Diagnostic::error(e.span, "this gives no value"));
+        }
         let zero = matches!(e.kind, ExprKind::Constant(Value::Int(0)));
         let text = self.text(e.span);
         let vertex = Type::Value(ValueType::Vertex);
-        let error = Diagnostic::error(e.span, format!("this is a `{}`, not a `{}`", name(e.ty), name(wanted)));
+        let error = Diagnostic::error(e.span, format!("this is {}, not {}", a(e.ty), a(wanted)));
         let vec = Type::Value(ValueType::Vec);
         let error = match (e.ty, wanted) {
             _ if wanted == vertex && zero => error.fix("no vertex is `null`", e.span, "null"),
@@ -208,6 +218,7 @@ impl<'a> Checker<'a> {
             _ if e.ty == vertex && wanted == vec => {
                 error.fix(format!("its position is `{text}$pos`"), e.span, format!("{text}$pos"))
             }
+            (Type::Mesh, _) if wanted == vertex => error.hint("`forall p in S` walks the vertices of a mesh `S`"),
             (Type::Value(ValueType::Vec), Type::Value(ValueType::Double)) => {
                 error.hint("take a coordinate, `.x`, or its `length`")
             }

@@ -8,7 +8,7 @@ use crate::source::Span;
 use crate::syntax::tree::{self, Element, ExprKind as Tree};
 
 use super::Checker;
-use super::operator::name as type_text;
+use super::operator::a;
 use super::suggest::Wanted;
 
 const VERTEX: Type = Type::Value(ValueType::Vertex);
@@ -166,7 +166,7 @@ impl<'a> Checker<'a> {
             other => {
                 let error = Diagnostic::error(
                     of.span.to(name.span),
-                    format!("vertices, edges and meshes have properties, a `{}` has none", type_text(other)),
+                    format!("vertices, edges and meshes have properties, {} has none", a(other)),
                 );
                 let is_vec = other == Type::Value(ValueType::Vec);
                 self.fail(if is_vec && matches!(name.text.as_str(), "x" | "y" | "z") {
@@ -230,13 +230,17 @@ impl<'a> Checker<'a> {
                 None => self.fail(Diagnostic::error(name.span, format!("a `vec` has x, y and z, but no `{text}`"))),
             };
         }
-        let error =
-            Diagnostic::error(name.span, format!("a `{}` has no `.{text}`, only a `vec` has", type_text(of.ty)));
+        let error = Diagnostic::error(name.span, format!("{} has no `.{text}`, only a `vec` has", a(of.ty)));
         let owner = self.text(of.span);
         let dot_and_name = Span { start: of.span.end, ..name.span };
         self.fail(match (of.ty, axis) {
             (VERTEX, Some(_)) => error.fix(format!("write `{owner}$pos.{text}`"), dot_and_name, format!("$pos.{text}")),
-            (VERTEX | Type::Mesh, _) => error.fix(format!("write `{owner}${text}`"), dot_and_name, format!("${text}")),
+            (VERTEX, None) if text == "pos" || self.vertex_properties.names.contains_key(text) => {
+                error.fix(format!("write `{owner}${text}`"), dot_and_name, format!("${text}"))
+            }
+            (Type::Mesh, _) if self.mesh_properties.names.contains_key(text) => {
+                error.fix(format!("write `{owner}${text}`"), dot_and_name, format!("${text}"))
+            }
             _ => error,
         })
     }

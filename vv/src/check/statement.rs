@@ -6,11 +6,11 @@ use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
 use crate::syntax::tree::{self, ExprKind as Tree, StmtKind as TreeStmt};
 
-use super::Checker;
 use super::body::{NewLocal, Role};
 use super::expression::has_effect;
-use super::operator::{name as type_text, type_of};
+use super::operator::{a, type_of};
 use super::place::bare;
+use super::{Checker, with_stack};
 
 const VERTEX: Type = Type::Value(ValueType::Vertex);
 
@@ -47,7 +47,7 @@ impl<'a> Checker<'a> {
     }
 
     fn statement(&mut self, s: &'a tree::Stmt, out: &mut Vec<Stmt>) -> bool {
-        self.deeper(s.span, |c| Some(c.statement_node(s, out))).unwrap_or(true)
+        with_stack(|| self.statement_node(s, out))
     }
 
     fn statement_node(&mut self, s: &'a tree::Stmt, out: &mut Vec<Stmt>) -> bool {
@@ -109,7 +109,7 @@ impl<'a> Checker<'a> {
             }
             TreeStmt::Make { items, of } => {
                 let items: Vec<_> = items.iter().map(|item| self.item(item)).collect();
-                let of = self.vertex(of);
+                let of = self.edited(of);
                 items.into_iter().collect::<Option<_>>().zip(of).map(|(items, of)| StmtKind::Make { items, of })
             }
             TreeStmt::Erase { item, from } => {
@@ -151,6 +151,14 @@ impl<'a> Checker<'a> {
 
     /// The vertex whose ring is changed.
     fn edited(&mut self, e: &'a tree::Expr) -> Option<Expr> {
+        if let Tree::Old(inner) = &bare(e).kind {
+            let now = self.text(inner.span);
+            return self.fail(Diagnostic::error(e.span, "an old ring can only be read").fix(
+                format!("the ring as it is now is that of `{now}`"),
+                e.span,
+                now,
+            ));
+        }
         self.vertex(e)
     }
 
@@ -275,7 +283,8 @@ impl<'a> Checker<'a> {
             };
             self.report(error);
         }
-        Some(StmtKind::Expr(checked))
+        // A mesh without effect is of no use to engines.
+        (checked.ty != Type::Mesh || has_effect(&checked)).then_some(StmtKind::Expr(checked))
     }
 
     /// `Some(None)` is a return without a value.
@@ -286,7 +295,7 @@ impl<'a> Checker<'a> {
         match (value, returns) {
             (None, Type::Void) => Some(None),
             (None, _) => self.fail(
-                Diagnostic::error(span, format!("`{name}` must return a `{}` here", type_text(returns)))
+                Diagnostic::error(span, format!("`{name}` must return {} here", a(returns)))
                     .label(promised, "promised here"),
             ),
             (Some(value), Type::Void) => {
@@ -377,7 +386,7 @@ impl<'a> Checker<'a> {
                 Some(e) if e.ty == VERTEX => Some(Over::Ring(crate::ir::Ring { vertex: Box::new(e), old: false })),
                 Some(e) => self.fail(Diagnostic::error(
                     e.span,
-                    format!("`forall` walks a mesh or the neighbours of a vertex, not a `{}`", type_text(e.ty)),
+                    format!("`forall` walks a mesh or the neighbours of a vertex, not {}", a(e.ty)),
                 )),
                 None => None,
             }

@@ -29,9 +29,7 @@ impl<'a> Checker<'a> {
             return;
         }
         let error = Diagnostic::error(span, format!("`{name}` is not declared"));
-        let error = if matches!(name, "NULL" | "nullptr" | "nil" | "None" | "Null") {
-            error.fix("write `null`", span, "null")
-        } else if let Some(f) = self.function_names.get(name).and_then(|f| self.signatures.get(f.0 as usize)) {
+        let error = if let Some(f) = self.function_names.get(name).and_then(|f| self.signatures.get(f.0 as usize)) {
             error.label(f.span, "a function has this name").hint(format!("call it: `{name}(…)`"))
         } else if Builtin::named(name).next().is_some() {
             error.hint(format!("call the function: `{name}(…)`"))
@@ -73,8 +71,11 @@ impl<'a> Checker<'a> {
             .take(4)
             .map(|&id| format!("`{}`", self.body.name(id)))
             .collect();
-        let why = if walked.is_some() { ", the vertex of this `forall`" } else { "" };
-        let error = error.fix(format!("did you mean `{chosen_name}`{why}?"), span, chosen_name);
+        let message = match walked {
+            Some(_) => format!("did you mean `{chosen_name}`, the vertex of this `forall`?"),
+            None => format!("a vertex known here is `{chosen_name}`"),
+        };
+        let error = error.fix(message, span, chosen_name);
         if others.is_empty() { error } else { error.evidence(format!("other vertices here: {}", others.join(", "))) }
     }
 
