@@ -24,6 +24,7 @@ pub(super) struct Signature<'a> {
 pub(super) struct Parameter<'a> {
     pub(super) name: &'a str,
     pub(super) span: Span,
+    pub(super) type_span: Span,
     /// `None` for a faulty one.
     pub(super) ty: Option<Type>,
     pub(super) passing: Passing,
@@ -48,6 +49,7 @@ impl<'a> Checker<'a> {
                         let s = Parameter {
                             name: "S",
                             span: name.span,
+                            type_span: name.span,
                             ty: Some(Type::Mesh),
                             passing: Passing::Reference,
                             is_const: false,
@@ -89,7 +91,14 @@ impl<'a> Checker<'a> {
                 }
                 // What is not changed may as well be a copy, and a copy takes any expression.
                 let passing = if p.by_reference && !p.is_const { Passing::Reference } else { Passing::Value };
-                Parameter { name: &p.name.text, span: p.name.span, ty, passing, is_const: p.is_const }
+                Parameter {
+                    name: &p.name.text,
+                    span: p.name.span,
+                    type_span: p.ty.span,
+                    ty,
+                    passing,
+                    is_const: p.is_const,
+                }
             })
             .collect();
         let signature = Signature {
@@ -139,11 +148,11 @@ impl<'a> Checker<'a> {
             let copies = p.ty == Some(Type::Mesh) && p.passing == Passing::Value && !p.is_const;
             s.span.file == FileId::MAIN && s.returns == Type::Void && copies
         });
-        if let Some((name, span)) = copied.and_then(|s| Some((s.name, s.parameters.first()?.span))) {
-            let at = Span { end: span.start, ..span };
+        if let Some((name, span)) = copied.and_then(|s| Some((s.name, s.parameters.first()?.type_span))) {
+            let at = Span { start: span.end, ..span };
             self.report(
                 Diagnostic::warning(span, format!("`{name}` gets a copy of the mesh, so it is no step of the modeler"))
-                    .fix("take the mesh itself, `mesh& S`", at, "& "),
+                    .fix("take the mesh itself, `mesh& S`", at, "&"),
             );
         }
     }

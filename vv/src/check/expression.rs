@@ -2,13 +2,15 @@
 
 use crate::builtins::{Builtin, Code, type_name};
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Argument, Compound, Expr, ExprKind, FunctionId, Passing, Place, Step, StepPosition, Type, Unary};
+use crate::ir::{
+    Argument, Compound, Expr, ExprKind, FunctionId, Item, Passing, Place, Step, StepPosition, Type, Unary,
+};
 use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
 use crate::syntax::tree::{self, BinaryOp, ExprKind as Tree, UnaryOp};
 
 use super::operator::{Way, a, common_number, operation, symbol, way};
-use super::place::{Named, Typed, bare};
+use super::place::{Domain, Named, Typed, bare};
 use super::suggest::Wanted;
 use super::{Checker, with_stack};
 
@@ -107,22 +109,16 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// `is x in v` asks a ring, `is v in S` a set.
+    /// `is x in v` asks a ring, `is v in S` a set, in which null never is.
     fn is(&mut self, item: &'a tree::Expr, of: &'a tree::Expr, span: Span) -> Option<Expr> {
-        let set = match &bare(of).kind {
-            Tree::Name(name) => self.body.find(name).filter(|&id| self.body.type_of(id) == Some(Type::Mesh)).is_some(),
-            Tree::Call { callee, .. } => {
-                let called = self.function_names.get(callee.text.as_str());
-                called.and_then(|f| self.signatures.get(f.0 as usize)).is_some_and(|s| s.returns == Type::Mesh)
+        let (item_ir, domain) = (self.item(item), self.domain(of, Some(item)));
+        let kind = match (domain?, item_ir?) {
+            (Domain::Ring(ring), item) => ExprKind::IsInRing(Box::new(item), ring),
+            (Domain::Set(set), Item::Vertex(v)) => ExprKind::IsInSet(Box::new(v), Box::new(set)),
+            (Domain::Set(set), Item::Gap(span)) => {
+                let null = Expr { kind: ExprKind::Constant(Value::Vertex(None)), ty: VERTEX, span };
+                ExprKind::IsInSet(Box::new(null), Box::new(set))
             }
-            _ => false,
-        };
-        let kind = if set {
-            let (item, of) = (self.vertex_or_null(item), self.mesh(of));
-            ExprKind::IsInSet(Box::new(item?), Box::new(of?))
-        } else {
-            let (item_ir, ring) = (self.item(item), self.ring(of, Some(item)));
-            ExprKind::IsInRing(Box::new(item_ir?), ring?)
         };
         Some(Expr { kind, ty: BOOL, span })
     }
@@ -502,8 +498,8 @@ pub(super) fn has_effect(e: &Expr) -> bool {
         ExprKind::Any(ring) | ExprKind::Valence(ring) | ExprKind::Gaps(ring) => has_effect(&ring.vertex),
         ExprKind::Next(item, ring) | ExprKind::Previous(item, ring) | ExprKind::IsInRing(item, ring) => {
             let item = match &**item {
-                crate::ir::Item::Vertex(e) => has_effect(e),
-                crate::ir::Item::Gap(_) => false,
+                Item::Vertex(e) => has_effect(e),
+                Item::Gap(_) => false,
             };
             item || has_effect(&ring.vertex)
         }

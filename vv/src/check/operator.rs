@@ -238,7 +238,7 @@ impl<'a> Checker<'a> {
                 if !whole {
                     let text = self.text(e.span);
                     self.report(Diagnostic::warning(e.span, "the fraction of this `double` is lost in an `int`").fix(
-                        "say so if it is meant",
+                        format!("write `int({text})` if that is meant"),
                         e.span,
                         format!("int({text})"),
                     ));
@@ -259,13 +259,14 @@ impl<'a> Checker<'a> {
                     return;
                 }
                 let (text, fixed) = (self.text(e.span), self.as_double_division(e.span, left, right));
+                let whole = if text.starts_with('(') { format!("double{text}") } else { format!("double({text})") };
                 self.report(
                     Diagnostic::warning(
                         e.span,
                         format!("`{text}` divides ints, so its fraction is lost before it becomes a double"),
                     )
                     .fix(
-                        format!("write `{fixed}`, or `double({text})` if the whole part is meant"),
+                        format!("write `{fixed}`, or `{whole}` if the whole part is meant"),
                         e.span,
                         fixed,
                     ),
@@ -289,13 +290,14 @@ impl<'a> Checker<'a> {
         let (left_text, right_text) = (self.text(left.span), self.text(right.span));
         let between = self.text(Span { start: left.span.end, end: right.span.start, ..span });
         let right_fixed = if digits(right) { format!("{right_text}.0") } else { right_text.to_owned() };
-        if digits(left) {
-            format!("{left_text}.0{between}{right_fixed}")
-        } else if digits(right) {
-            format!("{left_text}{between}{right_fixed}")
-        } else {
-            format!("double({left_text}){between}{right_text}")
-        }
+        let left_fixed = match (digits(left), digits(right)) {
+            (true, _) => format!("{left_text}.0"),
+            (false, true) => left_text.to_owned(),
+            (false, false) => format!("double({left_text})"),
+        };
+        // Parentheses around the division belong to its span.
+        let (before, after) = (Span { end: left.span.start, ..span }, Span { start: right.span.end, ..span });
+        format!("{}{left_fixed}{between}{right_fixed}{}", self.text(before), self.text(after))
     }
 }
 

@@ -26,6 +26,19 @@ pub(super) struct Typed {
     pub(super) ty: ValueType,
 }
 
+/// What can be walked, and asked for a vertex.
+pub(super) enum Domain {
+    Set(Expr),
+    Ring(Ring),
+}
+
+fn name_of(e: Option<&tree::Expr>) -> Option<&str> {
+    match &bare(e?).kind {
+        Tree::Name(name) => Some(name),
+        _ => None,
+    }
+}
+
 /// Without the parentheses around it.
 pub(super) fn bare(mut e: &tree::Expr) -> &tree::Expr {
     while let Tree::Paren(inner) = &e.kind {
@@ -74,25 +87,30 @@ impl<'a> Checker<'a> {
 
     /// As [`Checker::vertex`]; an unknown name hardly means `except`.
     fn vertex_but(&mut self, e: &'a tree::Expr, except: Option<&'a str>) -> Option<Expr> {
-        let inner = bare(e);
-        let vertex = match &inner.kind {
-            Tree::Name(name) => self.name_expression(name, inner.span, Wanted::Vertex { except })?,
-            _ => self.expression(e)?,
-        };
-        if matches!(vertex.kind, ExprKind::Constant(Value::Vertex(None))) {
-            return self.fail(Diagnostic::error(e.span, "`null` is no vertex that this could be done with"));
-        }
-        self.only_vertex(vertex)
+        let vertex = self.operand(e, except)?;
+        self.only_true_vertex(vertex)
     }
 
     /// A vertex or null.
     pub(super) fn vertex_or_null(&mut self, e: &'a tree::Expr) -> Option<Expr> {
-        let inner = bare(e);
-        let vertex = match &inner.kind {
-            Tree::Name(name) => self.name_expression(name, inner.span, Wanted::Vertex { except: None })?,
-            _ => self.expression(e)?,
-        };
+        let vertex = self.operand(e, None)?;
         self.only_vertex(vertex)
+    }
+
+    /// An expression of any type where a vertex would do: an unknown name hardly means `except`.
+    fn operand(&mut self, e: &'a tree::Expr, except: Option<&'a str>) -> Option<Expr> {
+        let inner = bare(e);
+        match &inner.kind {
+            Tree::Name(name) => self.name_expression(name, inner.span, Wanted::Vertex { except }),
+            _ => self.expression(e),
+        }
+    }
+
+    fn only_true_vertex(&mut self, e: Expr) -> Option<Expr> {
+        if matches!(e.kind, ExprKind::Constant(Value::Vertex(None))) {
+            return self.fail(Diagnostic::error(e.span, "`null` is no vertex that this could be done with"));
+        }
+        self.only_vertex(e)
     }
 
     fn only_vertex(&mut self, e: Expr) -> Option<Expr> {
@@ -109,13 +127,26 @@ impl<'a> Checker<'a> {
 
     /// The ring that is read, `v` or `` `v ``; a name that is unknown hardly means that of `item`.
     pub(super) fn ring(&mut self, e: &'a tree::Expr, item: Option<&'a tree::Expr>) -> Option<Ring> {
-        let except = item.and_then(|i| match &bare(i).kind {
-            Tree::Name(name) => Some(name.as_str()),
-            _ => None,
-        });
         let (inner, old) = self.without_mark(e);
-        let vertex = self.vertex_but(inner, except)?;
+        let vertex = self.vertex_but(inner, name_of(item))?;
         Some(Ring { vertex: Box::new(vertex), old })
+    }
+
+    /// What `forall` walks and `is` asks: a mesh or a ring.
+    pub(super) fn domain(&mut self, e: &'a tree::Expr, item: Option<&'a tree::Expr>) -> Option<Domain> {
+        let (inner, old) = self.without_mark(e);
+        let found = self.operand(inner, name_of(item))?;
+        match found.ty {
+            Type::Mesh if !old => Some(Domain::Set(found)),
+            VERTEX => Some(Domain::Ring(Ring { vertex: Box::new(self.only_true_vertex(found)?), old })),
+            Type::Mesh => {
+                self.fail(
+                    Diagnostic::error(e.span, "a mesh has no old members, its vertices have old rings and properties")
+                        .fix("the mesh as it is", e.span, self.text(inner.span)),
+                )
+            }
+            other => self.fail(Diagnostic::error(found.span, format!("this is {}, no mesh and no vertex", a(other)))),
+        }
     }
 
     /// Takes the mark of an old value off; it is noted as read.
@@ -147,10 +178,7 @@ impl<'a> Checker<'a> {
         if let Tree::Edge(p, q) = &bare(inner).kind {
             return self.edge_property(p, q, old, name);
         }
-        let owner = match &bare(inner).kind {
-            Tree::Name(n) => self.name_expression(n, bare(inner).span, Wanted::Vertex { except: None }),
-            _ => self.expression(inner),
-        }?;
+        let owner = self.operand(inner, None)?;
         match owner.ty {
             Type::Mesh => self.mesh_property(owner, old, of, name),
             VERTEX if matches!(owner.kind, ExprKind::Constant(_)) => {
@@ -230,7 +258,8 @@ impl<'a> Checker<'a> {
                 None => self.fail(Diagnostic::error(name.span, format!("a `vec` has x, y and z, but no `{text}`"))),
             };
         }
-        let error = Diagnostic::error(name.span, format!("{} has no `.{text}`, only a `vec` has", a(of.ty)));
+        let only = if axis.is_some() { ", only a `vec` has" } else { "" };
+        let error = Diagnostic::error(name.span, format!("{} has no `.{text}`{only}", a(of.ty)));
         let owner = self.text(of.span);
         let dot_and_name = Span { start: of.span.end, ..name.span };
         self.fail(match (of.ty, axis) {

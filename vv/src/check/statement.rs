@@ -9,7 +9,7 @@ use crate::syntax::tree::{self, ExprKind as Tree, StmtKind as TreeStmt};
 use super::body::{NewLocal, Role};
 use super::expression::has_effect;
 use super::operator::{a, type_of};
-use super::place::bare;
+use super::place::{Domain, bare};
 use super::{Checker, with_stack};
 
 const VERTEX: Type = Type::Value(ValueType::Vertex);
@@ -373,24 +373,7 @@ impl<'a> Checker<'a> {
     }
 
     fn forall(&mut self, variable: &'a tree::Name, over: &'a tree::Expr, body: &'a tree::Stmt) -> Option<StmtKind> {
-        enum Over {
-            Set(Expr),
-            Ring(crate::ir::Ring),
-        }
-        let is_old = matches!(bare(over).kind, Tree::Old(_));
-        let checked = if is_old {
-            self.ring(over, None).map(Over::Ring)
-        } else {
-            match self.walked(over) {
-                Some(e) if e.ty == Type::Mesh => Some(Over::Set(e)),
-                Some(e) if e.ty == VERTEX => Some(Over::Ring(crate::ir::Ring { vertex: Box::new(e), old: false })),
-                Some(e) => self.fail(Diagnostic::error(
-                    e.span,
-                    format!("`forall` walks a mesh or the neighbours of a vertex, not {}", a(e.ty)),
-                )),
-                None => None,
-            }
-        };
+        let domain = self.domain(over, None);
         self.open_scope();
         let new = NewLocal {
             name: &variable.text,
@@ -404,24 +387,10 @@ impl<'a> Checker<'a> {
         let (body, _) = self.inner(body);
         self.body.loops -= 1;
         self.close_scope();
-        Some(match checked? {
-            Over::Set(set) => StmtKind::ForallSet { local, set, body },
-            Over::Ring(ring) => StmtKind::ForallRing { local, ring, body },
+        Some(match domain? {
+            Domain::Set(set) => StmtKind::ForallSet { local, set, body },
+            Domain::Ring(ring) => StmtKind::ForallRing { local, ring, body },
         })
-    }
-
-    fn walked(&mut self, over: &'a tree::Expr) -> Option<Expr> {
-        let inner = bare(over);
-        let e = match &inner.kind {
-            Tree::Name(name) => {
-                self.name_expression(name, inner.span, super::suggest::Wanted::Vertex { except: None })?
-            }
-            _ => self.expression(over)?,
-        };
-        if matches!(e.kind, ExprKind::Constant(Value::Vertex(None))) {
-            return self.fail(Diagnostic::error(over.span, "`null` has no neighbours"));
-        }
-        Some(e)
     }
 }
 

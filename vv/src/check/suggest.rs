@@ -40,6 +40,9 @@ impl<'a> Checker<'a> {
     }
 
     fn suggest_variable(&self, error: Diagnostic, name: &str, span: Span, wanted: Wanted<'a>) -> Diagnostic {
+        if !self.may_search() {
+            return error;
+        }
         let visible: Vec<LocalId> = self.body.visible().collect();
         let usable = |&id: &LocalId| match wanted {
             Wanted::Any => true,
@@ -55,7 +58,7 @@ impl<'a> Checker<'a> {
             candidates.extend(self.globals.iter().map(|g| g.name.clone()));
             candidates.extend(NUMBERS.iter().map(|n| n.name.to_owned()));
         }
-        if let Some(near) = self.nearest(name, candidates.iter().map(String::as_str)) {
+        if let Some(near) = nearest(name, candidates.iter().map(String::as_str)) {
             return error.fix(format!("did you mean `{near}`?"), span, near);
         }
         let Wanted::Vertex { .. } = wanted else { return error };
@@ -93,10 +96,14 @@ impl<'a> Checker<'a> {
         if !self.body.unknown.insert(name) {
             return;
         }
+        if !self.may_search() {
+            self.report(error);
+            return;
+        }
         let own: Vec<&str> = self.signatures.iter().map(|s| s.name).collect();
         let builtins = Builtin::all().map(|b| -> &str { b.name() });
         let names = own.into_iter().chain(builtins);
-        let error = match self.nearest(name, names) {
+        let error = match nearest(name, names) {
             Some(near) => error.fix(format!("did you mean `{near}`?"), span, near),
             None => error,
         };
@@ -111,38 +118,55 @@ impl<'a> Checker<'a> {
             Element::Mesh => ("meshes have", "mesh"),
         };
         let error = Diagnostic::error(span, format!("{of} no property `{name}`"));
+        if !self.may_search() {
+            self.report(error);
+            return;
+        }
         let mut names: Vec<&str> = self.properties(element).declarations.iter().map(|p| p.name.as_str()).collect();
         if element == Element::Vertex {
             names.push("pos");
         }
-        let near = self.nearest(name, names.into_iter());
-        let error = match near {
-            Some(near) => error.fix(format!("did you mean `{near}`?"), span, near),
-            None if element == Element::Vertex && matches!(name, "position" | "p" | "point") => {
+        if let Some(near) = nearest(name, names.into_iter()) {
+            let error = error.fix(format!("did you mean `{near}`?"), span, near);
+            self.report(error);
+            return;
+        }
+        let others =
+            [Element::Vertex, Element::Edge, Element::Mesh].map(|other| self.properties(other).names.get(name));
+        let error = match others.into_iter().flatten().next() {
+            _ if name == "pos" => error.hint("positions belong to vertices"),
+            _ if element == Element::Vertex && matches!(name, "position" | "point") => {
                 error.fix("the position is `pos`", span, "pos")
             }
-            None => error,
+            Some(&(declared, _)) => error.label(declared, "a property of something else has this name"),
+            None => error.hint(format!("declare it at file scope: `{block} {{ double {name} = 0; }};`")),
         };
-        self.report(error.hint(format!("declare it at file scope: `{block} {{ double {name} = 0; }};`")));
+        self.report(error);
     }
 
-    /// The name next to `name`, if one is near; of equally near ones the first.
-    fn nearest<'n>(&self, name: &str, candidates: impl Iterator<Item = &'n str>) -> Option<String> {
-        self.searches_left.set(self.searches_left.get().checked_sub(1)?);
-        let allowed = match name.chars().count() {
-            0..=2 => 0,
-            3..=5 => 1,
-            6..=64 => 2,
-            _ => return None,
-        };
-        let name = name.to_lowercase();
-        candidates
-            .filter(|c| c.len() <= 128)
-            .map(|c| (distance(&name, &c.to_lowercase()), c))
-            .filter(|&(d, _)| d <= allowed)
-            .min_by_key(|&(d, _)| d)
-            .map(|(_, c)| c.to_owned())
+    /// Whether to look for what may have been meant, which is not for ever.
+    fn may_search(&self) -> bool {
+        let left = self.searches_left.get();
+        self.searches_left.set(left.saturating_sub(1));
+        left > 0
     }
+}
+
+/// The name next to `name`, if one is near; of equally near ones the first.
+fn nearest<'n>(name: &str, candidates: impl Iterator<Item = &'n str>) -> Option<String> {
+    let allowed = match name.chars().count() {
+        0..=2 => 0,
+        3..=5 => 1,
+        6..=64 => 2,
+        _ => return None,
+    };
+    let name = name.to_lowercase();
+    candidates
+        .filter(|c| c.len() <= 128)
+        .map(|c| (distance(&name, &c.to_lowercase()), c))
+        .filter(|&(d, _)| d <= allowed)
+        .min_by_key(|&(d, _)| d)
+        .map(|(_, c)| c.to_owned())
 }
 
 /// How many characters to insert, delete, change or swap with their neighbour (optimal string alignment).

@@ -11,3 +11,5 @@ mod files;
 mod manual;
 mod mesh;
 mod shapes;
+
+mod check;
