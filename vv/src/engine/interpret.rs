@@ -360,7 +360,7 @@ impl<'a> Machine<'a> {
 
 fn megabytes(bytes: usize) -> String {
     match bytes >> 20 {
-        0 => format!("{bytes} bytes"),
+        0 => format!("{} KiB", bytes.div_ceil(1 << 10)),
         n @ 1..10_000 => format!("{n} MiB"),
         n => format!("{} GiB", n >> 10),
     }

@@ -10,6 +10,7 @@
 mod files;
 mod manual;
 mod mesh;
+mod run;
 mod shapes;
 
 mod check;

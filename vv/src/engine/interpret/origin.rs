@@ -109,9 +109,7 @@ impl Machine<'_> {
                     .evidence(format!("{name}: {ring}"))
                     .about(std::iter::once(*v).chain(*x));
                 if *found {
-                    fault = fault.hint(format!(
-                        "{v} lies on a boundary; ask first: `{code} == null` where the surface has a hole"
-                    ));
+                    fault = fault.hint(format!("{v} lies on a boundary: test `{code} == null` first"));
                 }
                 fault
             }
@@ -148,9 +146,10 @@ impl Machine<'_> {
     pub(super) fn code(&self, span: Span) -> String {
         let words: Vec<&str> = self.program.sources.text(span).split_whitespace().collect();
         let text = words.join(" ");
+        let text = without_parentheses(&text);
         match text.char_indices().nth(60) {
             Some((end, _)) => format!("{} …", &text[..end]),
-            None => text,
+            None => text.to_owned(),
         }
     }
 
@@ -158,6 +157,19 @@ impl Machine<'_> {
     pub(super) fn ring_evidence(&self, v: Vertex, x: Option<Vertex>) -> String {
         format!("ring of {v}: {}", text::ring(self.mesh.ring(v), x))
     }
+}
+
+/// `(a)` is quoted as `a`, `(a) + (b)` as it is.
+fn without_parentheses(text: &str) -> &str {
+    let Some(inner) = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')) else { return text };
+    let mut open = 0;
+    for c in inner.chars() {
+        open += i32::from(c == '(') - i32::from(c == ')');
+        if open < 0 {
+            return text;
+        }
+    }
+    inner
 }
 
 fn ring_name(old: bool, v: Vertex) -> String {

@@ -1,0 +1,116 @@
+//! Budgets and stops: no program hangs or grows without bound.
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use vv::engine::{Failure, FailureKind, Limits, Settings, run};
+use vv::mesh::Mesh;
+use vv::stop::{Stop, Stopped};
+
+use super::compile;
+
+#[track_caller]
+fn fail(text: &str, settings: &Settings) -> Failure {
+    let program = compile(text);
+    run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, settings, &mut Vec::new()).unwrap_err()
+}
+
+#[track_caller]
+fn check_limit(limits: Limits, body: &str, message: &str) {
+    let text = format!("static void f(mesh T) {{ vertex x; add x to T; f(T); }}\nvoid step(mesh& S) {{\n{body}\n}}");
+    let failure = fail(&text, &Settings { limits, ..Settings::default() });
+    assert_eq!(failure.kind, FailureKind::Budget, "{}", failure.diagnostic.message);
+    assert_eq!(failure.diagnostic.message, message);
+    assert!(failure.diagnostic.span.is_some());
+}
+
+#[test]
+fn vertices() {
+    let limits = Limits { max_vertices: 10, ..Limits::default() };
+    check_limit(limits, "while (true) vertex x;", "the step needs more than 10 vertices");
+}
+
+#[test]
+fn memory() {
+    let limits = Limits { max_bytes: 256 << 10, ..Limits::default() };
+    let message = "the step needs more than 256 KiB";
+    let check = |body: &str| check_limit(limits, body, message);
+    check("while (true) vertex x;");
+    check("while (true) { vertex x; add x to S; }");
+    check("while (true) { print \"more and more\"; }");
+    check("vertex v; while (true) { vertex x; make {x} nb_of v; make {v} nb_of x; }");
+    check("vertex v, w; make {w} nb_of v; while (true) { vertex x; splice x after w in v; }");
+    check("while (true) { vertex x; add x to S; synchronize S; }");
+    // Each call has a set of its own.
+    check("for (int i = 0; i < 3000; i++) { vertex x; add x to S; } f(S);");
+}
+
+#[test]
+fn sets_that_share_their_members_cost_nothing() {
+    let text = "static void f(mesh T, int n) { if (n > 0) f(T, n - 1); }
+                void step(mesh& S) { for (int i = 0; i < 20000; i++) { vertex x; add x to S; } f(S, 500); }";
+    let program = compile(text);
+    let settings = Settings { limits: Limits { max_bytes: 8 << 20, ..Limits::default() }, ..Settings::default() };
+    run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, &settings, &mut Vec::new()).unwrap();
+}
+
+#[test]
+fn calls() {
+    let text = "int f(int n) { return n == 0 ? 0 : 1 + f(n - 1); }
+                void step(mesh& S) { print f(9998); print f(9999); }";
+    let program = compile(text);
+    let mut output = Vec::new();
+    let failure =
+        run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, &Settings::default(), &mut output).unwrap_err();
+    assert_eq!(output, ["9998"]);
+    assert_eq!(failure.kind, FailureKind::Budget);
+    let d = failure.diagnostic;
+    assert_eq!(d.message, "more than 10000 calls are open at once");
+    assert_eq!(d.evidence, ["9999 calls are open; 9983 in the middle are not listed"]);
+    assert_eq!(d.calls.len(), 16);
+}
+
+#[test]
+fn deep_nesting_within_deep_recursion() {
+    let nested = format!("{}f(n - 1){}", "(1 + ".repeat(60), ")".repeat(60));
+    let text = format!(
+        "int f(int n) {{ if (n == 0) return 0; {{ {{ {{ while (true) {{ forall v in g() return {nested}; }} }} }} }} }}
+         mesh g() {{ mesh T; vertex x; add x to T; return T; }}
+         void step(mesh& S) {{ print f(9000); }}"
+    );
+    let program = compile(&text);
+    let mut output = Vec::new();
+    run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, &Settings::default(), &mut output).unwrap();
+    assert_eq!(output, ["540000"]);
+}
+
+#[test]
+fn every_loop_can_be_stopped() {
+    for body in [
+        "while (true) {}",
+        "for (;;) {}",
+        "do {} while (true);",
+        "while (true) ;",
+        "int n = 0; while (true) { n++; n--; }",
+        "f();",
+        "vertex a; mesh T; add a to T; while (true) forall v in T ;",
+        "for (int i = 0; i < 100000; i++) { vertex x; add x to S; } while (true) { mesh T = S; merge T with S; }",
+    ] {
+        let stop = Stop::new();
+        let request = stop.clone();
+        let text = format!(
+            "static void f() {{ g(); }} static void g() {{ }} void step(mesh& S) {{ {body} while (true) f(); }}"
+        );
+        let timer = thread::spawn(move || {
+            thread::sleep(Duration::from_millis(30));
+            request.request(Stopped::ByTime);
+            Instant::now()
+        });
+        let failure = fail(&text, &Settings { stop, ..Settings::default() });
+        let late = timer.join().unwrap().elapsed();
+        assert_eq!(failure.kind, FailureKind::Stopped(Stopped::ByTime), "{body}");
+        assert_eq!(failure.diagnostic.message, "the time allowed for a step is over");
+        assert!(failure.diagnostic.span.is_some());
+        assert!(late < Duration::from_millis(500), "{body}: {late:?}");
+    }
+}
