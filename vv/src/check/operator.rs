@@ -2,13 +2,13 @@
 
 use crate::builtins::type_name;
 use crate::diagnostic::Diagnostic;
+use crate::ir::arithmetic::convert;
 use crate::ir::{Binary, Comparison, Conversion, Expr, ExprKind, Type, Unary};
 use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
 use crate::syntax::tree::{BinaryOp, TypeKind};
 
 use super::Checker;
-use super::constant;
 
 pub(super) fn type_of(kind: TypeKind) -> Type {
     match kind {
@@ -163,7 +163,7 @@ pub(super) fn converted(conversion: Conversion, e: Expr, to: ValueType) -> Expr 
     let span = e.span;
     let ty = Type::Value(to);
     if let ExprKind::Constant(value) = &e.kind
-        && let Some(value) = constant::convert(conversion, *value)
+        && let Ok(value) = convert(conversion, *value)
     {
         return Expr { kind: ExprKind::Constant(value), ty, span };
     }

@@ -275,7 +275,7 @@ fn constants() {
 //      ^^^^^^ error: a constant cannot be of type `vertex`
   const int z = 1 / 0, big = 9223372036854775807 + 1, nan = int(0.0 / 0.0);
 //              ^^^^^ error: this divides by zero
-//                           ^^^^^^^^^^^^^^^^^^^^^^^ error: this overflows
+//                           ^^^^^^^^^^^^^^^^^^^^^^^ error: the result does not fit into an int
 //                                                          ^^^^^^^^^^^^^^ error: this does not fit into an int
   const int z = 2;
 //          ^ error: there is a constant or parameter `z` already
