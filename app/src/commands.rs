@@ -60,8 +60,14 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Run a program without window.
+    ///
+    /// First runs its `start`, if it has one, on the input mesh or on none; then applies its rule, step by step. What the
+    /// program prints goes to stdout, errors and warnings go to stderr. Outputs are written when everything has
+    /// succeeded, each of them whole; a failed run writes none.
     Run(run::Arguments),
     /// Check programs for errors without running them.
+    ///
+    /// Finds what `vv run` would find before it runs them. Says nothing about programs without fault.
     Check(check::Arguments),
     /// Look at mesh files and convert them.
     #[command(subcommand)]
@@ -71,8 +77,12 @@ enum Command {
 #[derive(Debug, Subcommand)]
 enum MeshCommand {
     /// Count what a mesh is made of and say what is odd about it.
+    ///
+    /// Reads it as `vv run` would; what has to be repaired for that goes to stderr, or into the JSON object as well.
     Info(info::Arguments),
     /// Write a mesh in another format, or as a picture.
+    ///
+    /// Reads it as `vv run` would. Polygons and the order of the vertices are kept.
     Convert(convert::Arguments),
 }
 

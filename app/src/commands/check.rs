@@ -7,7 +7,7 @@ use clap::Args;
 use super::report::Reporter;
 use super::{EXIT_CODES, Exit, Reporting, input};
 
-/// Checks each program as `vv run` would before it runs it. Says nothing about programs without fault.
+/// What `vv check` takes.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Arguments {

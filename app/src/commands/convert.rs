@@ -10,7 +10,7 @@ use super::output::OutputArguments;
 use super::report::Reporter;
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, output};
 
-/// Reads a mesh as `vv run` would and writes it. Polygons and the order of the vertices are kept.
+/// What `vv mesh convert` takes.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Arguments {

@@ -12,7 +12,7 @@ use app::evaluation::within;
 use super::report::{Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, warnings_of};
 
-/// Reads a mesh as `vv run` would and says what it is made of and what had to be repaired.
+/// What `vv mesh info` takes.
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Arguments {

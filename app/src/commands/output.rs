@@ -5,13 +5,14 @@ use std::time::Instant;
 
 use app::files::{self, Prepared};
 use clap::{Args, ValueEnum};
+use image::RgbaImage;
 use vv::diagnostic::Diagnostic;
 use vv::io::Format;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 
 use super::report::Reporter;
-use super::{Exit, error, fail, input};
+use super::{Exit, error, fail, input, picture};
 
 /// What to write.
 #[derive(Debug, Args)]
@@ -22,7 +23,7 @@ pub struct OutputArguments {
     /// What `-o -` writes, and files whose extension does not say.
     #[arg(long, value_enum)]
     format: Option<OutputFormat>,
-    /// Size of pictures in pixels.
+    /// Size of pictures in pixels. Default: that of the reference picture, else 1280x960.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
 }
@@ -41,7 +42,10 @@ enum OutputFormat {
 pub type Size = (u32, u32);
 
 /// Of pictures, when nobody says.
-const DEFAULT_SIZE: Size = (1280, 960);
+pub const DEFAULT_SIZE: Size = (1280, 960);
+
+/// Most pixels of a picture: a gigabyte.
+const MOST_PIXELS: u64 = 1 << 28;
 
 /// A file to write.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,6 +60,8 @@ pub struct Target {
 pub struct Outputs {
     /// Ready to be put in their places.
     pub prepared: Vec<Prepared>,
+    /// The picture, if one was drawn.
+    pub picture: Option<RgbaImage>,
     /// Seconds for meshes.
     pub export_s: f64,
     /// Seconds for pictures.
@@ -134,7 +140,15 @@ pub fn prepare(
         let began = Instant::now();
         let bytes = match format {
             Some(format) => vv::io::write(mesh, faces, *format),
-            None => super::picture::png(mesh, faces, size.unwrap_or(DEFAULT_SIZE), reporter)?,
+            None => {
+                let size = size.unwrap_or(DEFAULT_SIZE);
+                // All pictures of a run are the same one.
+                let picture = match outputs.picture.take() {
+                    Some(picture) => picture,
+                    None => picture::picture(mesh, faces, size, reporter)?,
+                };
+                picture::png(outputs.picture.insert(picture), reporter)?
+            }
         };
         outputs.prepared.push(files::prepare(path, &bytes).map_err(|error| input::file_failed(&error, reporter))?);
         *if format.is_some() { &mut outputs.export_s } else { &mut outputs.render_s } += began.elapsed().as_secs_f64();
@@ -157,7 +171,11 @@ pub fn commit(prepared: Vec<Prepared>, reporter: &Reporter) -> Result<(), Exit> 
 
 fn size(text: &str) -> Result<Size, String> {
     let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-    sides.filter(|&(w, h)| w > 0 && h > 0).ok_or_else(|| "a size is width and height such as 1280x960".to_owned())
+    let (w, h) = sides.filter(|&(w, h)| w > 0 && h > 0).ok_or("a size is width and height such as 1280x960")?;
+    if u64::from(w) * u64::from(h) > MOST_PIXELS {
+        return Err(format!("a picture has at most {MOST_PIXELS} pixels"));
+    }
+    Ok((w, h))
 }
 
 #[cfg(test)]
@@ -167,7 +185,7 @@ mod tests {
     #[test]
     fn sizes_are_two_positive_numbers() {
         assert_eq!(size("640x480"), Ok((640, 480)));
-        for wrong in ["640", "0x480", "640x", "-1x1", "axb", "1x2x3"] {
+        for wrong in ["640", "0x480", "640x", "-1x1", "axb", "1x2x3", "99999x99999"] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
     }

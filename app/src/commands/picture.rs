@@ -1,16 +1,46 @@
 //! Pictures of meshes without window.
 
+use std::io::Cursor;
+
+use app::camera::Camera;
+use app::render::{self, RenderError};
+use app::scene::{Scene, Style};
+use image::{ImageFormat, RgbaImage};
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 
+use super::open::WITHOUT_GPU;
 use super::output::Size;
 use super::report::Reporter;
 use super::{Exit, error, fail};
 
-/// A picture in PNG format.
+/// A picture of a mesh as the window first shows it.
 ///
 /// # Errors
 /// [`Exit::NoRenderer`], reported.
-pub fn png(_mesh: &Mesh, _faces: &Faces, _size: Size, reporter: &Reporter) -> Result<Vec<u8>, Exit> {
-    fail(reporter, Exit::NoRenderer, error("pictures cannot be made yet"))
+pub fn picture(mesh: &Mesh, faces: &Faces, (width, height): Size, reporter: &Reporter) -> Result<RgbaImage, Exit> {
+    let style = Style::default();
+    let size = render::Size::new(width, height);
+    let scene = Scene::new(mesh, faces, None);
+    let camera = Camera::standard(scene.bounds(&style), size.aspect());
+    render::render_image(&scene, &camera, &style, size).or_else(|problem| {
+        let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
+        let diagnostic = match problem {
+            RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
+            RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
+        };
+        fail(reporter, Exit::NoRenderer, diagnostic)
+    })
+}
+
+/// The picture in PNG format.
+///
+/// # Errors
+/// [`Exit::File`], reported.
+pub fn png(picture: &RgbaImage, reporter: &Reporter) -> Result<Vec<u8>, Exit> {
+    let mut bytes = Cursor::new(Vec::new());
+    match picture.write_to(&mut bytes, ImageFormat::Png) {
+        Ok(()) => Ok(bytes.into_inner()),
+        Err(problem) => fail(reporter, Exit::File, error(format!("the picture cannot be written: {problem}"))),
+    }
 }

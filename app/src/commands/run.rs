@@ -34,10 +34,7 @@ Examples:
 
 ";
 
-/// Runs a program without window: first its `start`, if it has one, on the input mesh or on none; then its rule, step
-/// by step. What the program prints goes to stdout, errors and warnings go to stderr.
-///
-/// Outputs are written when everything has succeeded, each of them whole; a failed run writes none.
+/// What `vv run` takes.
 #[derive(Debug, Args)]
 #[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
 pub struct Arguments {

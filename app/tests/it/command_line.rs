@@ -20,7 +20,8 @@ const TRIANGLE: &str = "void start(mesh& S) {\n  vertex a; vertex b; vertex c;\n
                         make {c, a, null} nb_of b;\n  make {a, b, null} nb_of c;\n  \
                         add a to S; add b to S; add c to S;\n  print(\"started\");\n}\n";
 const ENDLESS: &str = "void step(mesh& S) { while (true) { } }\n";
-const FAILING: &str = "void step(mesh& S) {\n  print(\"before\");\n  forall v in S {\n    vertex x = null;\n    x$pos = v$pos;\n  }\n}\n";
+const FAILING: &str =
+    "void step(mesh& S) {\n  print(\"before\");\n  forall v in S {\n    vertex x = null;\n    x$pos = v$pos;\n  }\n}\n";
 
 /// How vv ended.
 struct Ended {
@@ -377,7 +378,8 @@ mod programs {
 
     #[test]
     fn an_include_is_found_beside_its_file_or_among_those_that_ship() {
-        let folder = Folder::with(&[("p.vv", "#include \"insert.vv\"\n#include \"sub/q.vv\"\nvoid step(mesh& S) { q(); }\n")]);
+        let folder =
+            Folder::with(&[("p.vv", "#include \"insert.vv\"\n#include \"sub/q.vv\"\nvoid step(mesh& S) { q(); }\n")]);
         folder.check("check p.vv", 1, "p.vv:2:");
         fs::create_dir(folder.path("sub")).unwrap();
         fs::write(folder.path("sub/q.vv"), "#include \"../p.vv\"\nvoid q() { print(\"q\"); }\n").unwrap();
@@ -455,7 +457,11 @@ mod budgets {
 
     #[test]
     fn an_endless_loop_runs_out_of_time() {
-        check("run endless.vv -i square.off --timeout 0.2 -o a.obj", 4, "endless.vv:1:\nstep 1 of 1 of `step`\n--timeout");
+        check(
+            "run endless.vv -i square.off --timeout 0.2 -o a.obj",
+            4,
+            "endless.vv:1:\nstep 1 of 1 of `step`\n--timeout",
+        );
     }
 
     #[test]
@@ -482,8 +488,17 @@ mod summary {
     use super::*;
 
     const FIELDS: &[&str] = &[
-        "vertices", "edges", "faces", "components", "boundary_loops", "euler_characteristic", "genus", "closed", "valid",
-        "warnings", "timings",
+        "vertices",
+        "edges",
+        "faces",
+        "components",
+        "boundary_loops",
+        "euler_characteristic",
+        "genus",
+        "closed",
+        "valid",
+        "warnings",
+        "timings",
     ];
     const TIMINGS: &[&str] =
         &["load_s", "compile_s", "steps_s", "closing_s", "faces_s", "export_s", "render_s", "total_s"];
