@@ -1,3 +1,4 @@
 //! Comparing results with earlier ones.
 
 pub mod meshes;
+pub mod pictures;

@@ -6,7 +6,7 @@ use app::evaluation::within;
 use clap::Args;
 use vv::mesh::faces::faces;
 
-use super::output::OutputArguments;
+use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::report::Reporter;
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, output};
 
@@ -36,6 +36,7 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
         Ok(faces) => faces,
         Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),
     };
-    let outputs = output::prepare(&targets, arguments.output.size(), &mesh, &faces, &reporter)?;
+    let size = arguments.output.size().unwrap_or(DEFAULT_SIZE);
+    let outputs = output::prepare(&targets, size, false, (&mesh, &faces), &reporter)?;
     output::commit(outputs.prepared, &reporter)
 }

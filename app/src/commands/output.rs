@@ -123,32 +123,32 @@ impl OutputArguments {
     }
 }
 
-/// Makes all outputs and writes them beside their places.
+/// Makes all outputs and writes them beside their places. All pictures of a run are the same one, which is also made
+/// `with_picture`.
 ///
 /// # Errors
 /// [`Exit::File`] or [`Exit::NoRenderer`], reported.
 pub fn prepare(
     targets: &[Target],
-    size: Option<Size>,
-    mesh: &Mesh,
-    faces: &Faces,
+    size: Size,
+    with_picture: bool,
+    (mesh, faces): (&Mesh, &Faces),
     reporter: &Reporter,
 ) -> Result<Outputs, Exit> {
     let mut outputs = Outputs::default();
+    if with_picture || targets.iter().any(|target| target.format.is_none()) {
+        reporter.progress("drawing the picture".to_owned());
+        let began = Instant::now();
+        outputs.picture = Some(picture::picture(mesh, faces, size, reporter)?);
+        outputs.render_s = began.elapsed().as_secs_f64();
+    }
     for Target { path, format } in targets {
         reporter.progress(format!("writing {}", path.display()));
         let began = Instant::now();
-        let bytes = match format {
-            Some(format) => vv::io::write(mesh, faces, *format),
-            None => {
-                let size = size.unwrap_or(DEFAULT_SIZE);
-                // All pictures of a run are the same one.
-                let picture = match outputs.picture.take() {
-                    Some(picture) => picture,
-                    None => picture::picture(mesh, faces, size, reporter)?,
-                };
-                picture::png(outputs.picture.insert(picture), reporter)?
-            }
+        let bytes = match (format, &outputs.picture) {
+            (Some(format), _) => vv::io::write(mesh, faces, *format),
+            (None, Some(picture)) => picture::png(picture, reporter)?,
+            (None, None) => Vec::new(),
         };
         outputs.prepared.push(files::prepare(path, &bytes).map_err(|error| input::file_failed(&error, reporter))?);
         *if format.is_some() { &mut outputs.export_s } else { &mut outputs.render_s } += began.elapsed().as_secs_f64();

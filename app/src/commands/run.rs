@@ -18,7 +18,7 @@ use vv::mesh::statistics::statistics;
 use vv::source::Sources;
 use vv::stop::Stop;
 
-use super::output::OutputArguments;
+use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::reference::Reference;
 use super::report::{Printer, Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
@@ -135,7 +135,9 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
         if needs_faces { run.in_time("finding the faces", |stop| faces(&mesh, stop))? } else { Faces::default() };
     timings.faces_s = finding.elapsed().as_secs_f64();
 
-    let outputs = output::prepare(&targets, arguments.output.size(), &mesh, &faces, reporter)?;
+    let size = arguments.output.size().or(reference.as_ref().and_then(Reference::size)).unwrap_or(DEFAULT_SIZE);
+    let with_picture = reference.as_ref().is_some_and(Reference::is_picture);
+    let outputs = output::prepare(&targets, size, with_picture, (&mesh, &faces), reporter)?;
     timings.export_s = outputs.export_s;
     timings.render_s = outputs.render_s;
     printer.flush(reporter)?;
@@ -147,7 +149,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     }
     output::commit(outputs.prepared, reporter)?;
     match reference {
-        Some(reference) => reference.compare(&mesh, &faces, arguments.output.size(), arguments.tolerance, reporter),
+        Some(reference) => reference.compare((&mesh, &faces), outputs.picture.as_ref(), arguments.tolerance, reporter),
         None => Ok(()),
     }
 }
