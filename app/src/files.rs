@@ -167,7 +167,7 @@ impl Includes {
 /// Reads a mesh, its format by extension. `-` is standard input: an OFF if it says so in its first word, else an OBJ.
 ///
 /// # Errors
-/// What the file system or the reader says. When `options.stop` was set the error says that.
+/// What the file system or the reader says, or that the mesh is empty. When `options.stop` was set the error says that.
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), FileError> {
     let named = if is_standard_stream(path) { None } else { Some(mesh_format(path)?) };
     let bytes = read(path, MAX_MESH_BYTES, &options.stop)?;
@@ -175,10 +175,16 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagno
         return Err(FileError::new(path, "is empty").hint("a mesh file lists vertices and faces"));
     }
     let format = named.unwrap_or_else(|| sniff(&bytes));
-    vv::io::read(&bytes, format, options).map_err(|error| match error {
+    let (mesh, warnings) = vv::io::read(&bytes, format, options).map_err(|error| match error {
         ReadError::Invalid { line, diagnostic } => FileError { path: path.to_owned(), line, diagnostic },
         ReadError::Stopped(stopped) => FileError::new(path, stopped.to_string()),
-    })
+    })?;
+    if mesh.set.is_empty() {
+        let mut error = FileError::new(path, "no faces can be made of what is in it, so the mesh is empty");
+        error.diagnostic.evidence.extend(warnings.into_iter().map(|warning| warning.message));
+        return Err(error);
+    }
+    Ok((mesh, warnings))
 }
 
 /// The mesh format that a path's extension names.

@@ -95,6 +95,9 @@ impl OutputArguments {
                 Err(diagnostic) => return fail(reporter, Exit::Usage, *diagnostic),
             }
         }
+        if targets.iter().any(|target| target.format.is_none()) {
+            picture::keep_driver_quiet();
+        }
         for target in &targets {
             files::prepare(&target.path, &[]).map_err(|error| input::file_failed(&error, reporter))?;
         }

@@ -14,6 +14,30 @@ use super::output::Size;
 use super::report::Reporter;
 use super::{Exit, error, fail};
 
+/// Keeps the graphics driver from writing to stderr, among our diagnostics, by running vv anew where it would. To be
+/// called before anything is read, by who will draw.
+///
+/// Mesa's Vulkan layer that chooses among GPUs asks the Wayland display for its own; where there is no session the
+/// Wayland library complains. Only a variable keeps the layer away, and only from the start of a process.
+pub fn keep_driver_quiet() {
+    #[cfg(target_os = "linux")]
+    {
+        use std::os::unix::process::CommandExt;
+
+        const WITHOUT_LAYER: &str = "NODEVICE_SELECT";
+        let set = |name| std::env::var_os(name).is_some();
+        if set("XDG_RUNTIME_DIR") || set(WITHOUT_LAYER) {
+            return;
+        }
+        if let Ok(program) = std::env::current_exe() {
+            // Comes back only if it fails; then the complaints are to be endured.
+            let mut arguments = std::env::args_os();
+            let name = arguments.next().unwrap_or_else(|| program.clone().into());
+            let _ = std::process::Command::new(program).arg0(name).args(arguments).env(WITHOUT_LAYER, "1").exec();
+        }
+    }
+}
+
 /// A picture of a mesh as the window first shows it.
 ///
 /// # Errors

@@ -37,8 +37,7 @@ impl Reference {
     /// # Errors
     /// [`Exit::File`] or [`Exit::Budget`], reported.
     pub fn read(path: &Path, options: &Importing, reporter: &Reporter) -> Result<Self, Exit> {
-        let is_picture = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-        let what = if is_picture { read_picture(path, reporter)? } else { read_mesh(path, options, reporter)? };
+        let what = if is_picture(path) { read_picture(path, reporter)? } else { read_mesh(path, options, reporter)? };
         Ok(Self { path: path.to_owned(), what })
     }
 
@@ -81,6 +80,11 @@ impl Reference {
         };
         difference.map_or(Ok(()), |difference| fail(reporter, Exit::Different, error(difference)))
     }
+}
+
+/// Whether a path names a picture.
+pub fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"))
 }
 
 fn read_mesh(path: &Path, options: &Importing, reporter: &Reporter) -> Result<What, Exit> {

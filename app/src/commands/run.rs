@@ -19,7 +19,8 @@ use vv::source::Sources;
 use vv::stop::Stop;
 
 use super::output::{DEFAULT_SIZE, OutputArguments};
-use super::reference::Reference;
+use super::picture;
+use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
 use summary::{Summary, Timings};
@@ -82,8 +83,10 @@ enum SummaryFormat {
 
 /// Runs the program; `began` is when the process did.
 pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
+    if arguments.reference.as_deref().is_some_and(is_picture) {
+        picture::keep_driver_quiet();
+    }
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
-    reporter.begin();
     let result = run_reported(arguments, began, &reporter);
     reporter.end();
     result
@@ -92,6 +95,7 @@ pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
 fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> Result<(), Exit> {
     check_streams(arguments, reporter)?;
     let targets = arguments.output.targets(reporter)?;
+    reporter.begin();
     let mut timings = Timings::default();
 
     let compiling = Instant::now();
