@@ -22,9 +22,26 @@ pub fn open(paths: &[PathBuf]) -> Result<(), Exit> {
         return fail(&reporter, Exit::NoRenderer, problem);
     }
     app::gui::run(mesh, program).or_else(|problem| {
-        let diagnostic = error(format!("the window cannot open: {problem}")).hint(PACKAGES).hint(WITHOUT_WINDOW);
-        fail(&reporter, Exit::NoRenderer, diagnostic)
+        let display = std::env::var("WAYLAND_DISPLAY").or_else(|_| std::env::var("DISPLAY")).unwrap_or_default();
+        fail(&reporter, Exit::NoRenderer, explained(&problem.to_string(), &display))
     })
+}
+
+/// What the window system or the driver says, in words that help.
+fn explained(cause: &str, display: &str) -> Diagnostic {
+    // The first line says what; what follows is a trace of who called whom.
+    let line = cause.lines().next().unwrap_or_default();
+    let diagnostic = if cause.contains("X server") || cause.contains("wayland compositor") {
+        error(format!("the window cannot open: the display `{display}` does not answer"))
+            .hint("WAYLAND_DISPLAY or DISPLAY must name a display that runs and lets you in")
+    } else if cause.contains("surface") || cause.contains("adapter") {
+        error("the window cannot open: there is no graphics driver to draw with")
+            .evidence(line)
+            .hint("on Debian and Ubuntu: apt install libvulkan1 mesa-vulkan-drivers, which draws without a GPU as well")
+    } else {
+        error(format!("the window cannot open: {line}")).hint(PACKAGES)
+    };
+    diagnostic.hint(WITHOUT_WINDOW)
 }
 
 /// What works without graphics.
@@ -154,6 +171,18 @@ mod tests {
         let variable = |name: &str| variables.iter().find(|(n, _)| *n == name).map(|(_, value)| value);
         let got = no_window(variable, |library| !missing.contains(&library)).map(|d| d.message);
         assert_eq!(got.as_deref(), expected);
+    }
+
+    #[test]
+    fn causes_are_explained() {
+        for (cause, expected) in [
+            ("os error at x.rs:788: Failed to open connection to X server", "the display `:7` does not answer"),
+            ("os error at x.rs:89: Could not find wayland compositor", "the display `:7` does not answer"),
+            ("Failed to create surface for any enabled backend: {}", "there is no graphics driver to draw with"),
+            ("it broke\n\nCaused by:\n  something", "it broke"),
+        ] {
+            assert_eq!(explained(cause, ":7").message, format!("the window cannot open: {expected}"));
+        }
     }
 
     #[cfg(target_os = "linux")]
