@@ -104,7 +104,7 @@ pub fn read_program(path: &Path) -> Result<String, FileError> {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = before.iter().filter(|&&b| b == b'\n').count() as u32 + 1;
         let byte = error.as_bytes().get(before.len()).copied().unwrap_or_default();
-        let mut error = FileError::new(path, "is no text in UTF-8").hint("save the program as UTF-8");
+        let mut error = FileError::new(path, "the text is not in UTF-8").hint("save the program as UTF-8");
         error.diagnostic.evidence.push(format!("the byte 0x{byte:02X} begins no character"));
         error.line = Some(line);
         error
@@ -164,12 +164,13 @@ impl Includes {
     }
 }
 
-/// Reads a mesh, its format by extension. `-` is standard input: an OFF if it says so in its first word, else an OBJ.
+/// Reads a mesh, its format by extension. Standard input (`-`) and files without extension are OFF if they say so in
+/// their first word, else OBJ.
 ///
 /// # Errors
 /// What the file system or the reader says, or that the mesh is empty. When `options.stop` was set the error says that.
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), FileError> {
-    let named = if is_standard_stream(path) { None } else { Some(mesh_format(path)?) };
+    let named = path.extension().map(|_| mesh_format(path)).transpose()?;
     let bytes = read(path, MAX_MESH_BYTES, &options.stop)?;
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(FileError::new(path, "is empty").hint("a mesh file lists vertices and faces"));
@@ -188,19 +189,12 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagno
 }
 
 /// The mesh format that a path's extension names.
-///
-/// # Errors
-/// If it names none.
-pub fn mesh_format(path: &Path) -> Result<Format, FileError> {
+fn mesh_format(path: &Path) -> Result<Format, FileError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     Format::from_extension(&extension).ok_or_else(|| {
         let known: Vec<_> = Format::ALL.iter().map(|f| format!("`.{}`", f.extension())).collect();
-        let message = if extension.is_empty() {
-            "has no extension that says how the mesh is written".to_owned()
-        } else {
-            format!("`.{extension}` is no mesh format that vv reads")
-        };
-        FileError::new(path, message).hint(format!("use {}", known.join(" or ")))
+        FileError::new(path, format!("`.{extension}` is no mesh format that vv reads"))
+            .hint(format!("it reads {}", known.join(" and ")))
     })
 }
 
@@ -280,7 +274,7 @@ mod tests {
         fs::write(&path, "\u{FEFF}// ü").unwrap();
         assert_eq!(read_program(&path).unwrap(), "// ü");
         fs::write(&path, b"// a\n// \xFC").unwrap();
-        fails(read_program(&path), Some(2), "is no text in UTF-8");
+        fails(read_program(&path), Some(2), "the text is not in UTF-8");
         fs::write(&path, [0; 9]).unwrap();
         fails(read_program(&path), None, "is no text: it holds zero bytes");
         fs::write(&path, vec![b' '; MAX_PROGRAM_BYTES as usize + 1]).unwrap();
@@ -300,7 +294,6 @@ mod tests {
     fn a_mesh_format_is_known_by_extension_of_any_case() {
         assert_eq!(mesh_format(Path::new("a.b/c.OFF")), Ok(Format::Off));
         fails(mesh_format(Path::new("a.stp")), None, "`.stp` is no mesh format that vv reads");
-        fails(mesh_format(Path::new("obj")), None, "has no extension that says how the mesh is written");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Files that commands read.
 
+use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,10 +10,13 @@ use vv::diagnostic::{Diagnostic, Severity};
 use vv::io::ReadOptions;
 use vv::ir::Program;
 use vv::mesh::Mesh;
-use vv::source::Sources;
+use vv::source::{Sources, Span};
 
 use super::report::Reporter;
 use super::{Exit, Importing, error, fail};
+
+/// Largest file that is read again to quote a line of it.
+const MOST_QUOTED: u64 = 64 << 20;
 
 /// Reads and checks a program and reports what is wrong with it; what is wrong but no error is also returned.
 ///
@@ -54,8 +58,28 @@ pub fn mesh(path: &Path, options: &Importing, reporter: &Reporter) -> Result<(Me
     Ok((mesh, warnings))
 }
 
-/// Reports it.
+/// Reports it, with the line it is about where there is one.
 pub fn file_failed(error: &FileError, reporter: &Reporter) -> Exit {
-    reporter.report(&[error.located()], &Sources::default());
+    match quoted(error) {
+        Some((diagnostic, sources)) => reporter.report(&[diagnostic], &sources),
+        None => reporter.report(&[error.located()], &Sources::default()),
+    }
     Exit::File
+}
+
+/// The diagnostic at its line of the file; `None` without line, or if the file cannot be read again.
+fn quoted(error: &FileError) -> Option<(Diagnostic, Sources)> {
+    let line = error.line?.checked_sub(1)? as usize;
+    // Only a file gives the same again; a pipe would keep us waiting.
+    fs::metadata(&error.path).ok().filter(|m| m.is_file() && m.len() <= MOST_QUOTED)?;
+    let bytes = fs::read(&error.path).ok()?;
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let quote = text.split_inclusive('\n').nth(line)?;
+    let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
+    let end = start + quote.trim_end().len();
+    let mut sources = Sources::default();
+    let file = sources.add(files::shown(&error.path), text);
+    let mut diagnostic = Diagnostic::clone(&error.diagnostic);
+    diagnostic.span = Some(Span::new(file, start as u32, end as u32));
+    Some((diagnostic, sources))
 }

@@ -10,6 +10,9 @@ use vv::source::Sources;
 
 use super::{DiagnosticFormat, Exit, error, fail};
 
+/// Work that is done in this time needs no progress.
+const AT_ONCE: Duration = Duration::from_millis(500);
+
 /// Writes diagnostics to stderr, above the progress if some is shown.
 #[derive(Debug, Clone)]
 pub struct Reporter {
@@ -40,16 +43,27 @@ impl Reporter {
         });
     }
 
-    /// Shows on a terminal that work goes on: the time it takes, and what [`Reporter::progress`] says.
+    /// From now on, shows on a terminal that work goes on: what [`Reporter::progress`] says and how long it takes. What
+    /// is done at once shows nothing.
     pub fn begin(&self) {
-        if io::stderr().is_terminal() {
-            // A bad template would be a mistake of ours; the default style does too.
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
-                self.progress.set_style(style);
-            }
-            self.progress.set_draw_target(ProgressDrawTarget::stderr());
-            self.progress.enable_steady_tick(Duration::from_millis(200));
+        if !io::stderr().is_terminal() {
+            return;
         }
+        let progress = self.progress.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(AT_ONCE);
+            // A template that cannot be read would be a mistake of ours; the default style does too.
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+                progress.set_style(style);
+            }
+            if !progress.is_finished() {
+                progress.set_draw_target(ProgressDrawTarget::stderr());
+                progress.enable_steady_tick(Duration::from_millis(200));
+            }
+            if progress.is_finished() {
+                progress.finish_and_clear();
+            }
+        });
     }
 
     /// What is being done now.

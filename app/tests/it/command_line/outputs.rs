@@ -1,0 +1,80 @@
+//! Files that are written.
+
+use super::*;
+
+#[test]
+fn each_extension_gets_its_format() {
+    let folder = Folder::with(&[]);
+    folder.check("run move.vv -i octahedron.obj -o a.obj -o b.off", 0, "");
+    assert_eq!(vertices(&folder.read("a.obj"))[..2], ["2 0 0", "0 0 0"]);
+    assert!(folder.read("b.off").starts_with("OFF\n6 8 "));
+}
+
+#[test]
+fn stdout_holds_nothing_but_the_output() {
+    let folder = Folder::with(&[]);
+    let ended = folder.run("run triangle.vv -o - --format off");
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), "started\n"));
+    assert!(ended.stdout.starts_with("OFF\n3 1 "), "{}", ended.stdout);
+    let ended = folder.run_with_stdin("mesh convert - -o - --format obj", &ended.stdout);
+    assert_eq!(vertices(&ended.stdout), ["0 0 0", "1 0 0", "0 1 0"]);
+}
+
+#[test]
+fn a_failed_step_writes_nothing_and_leaves_what_was_there() {
+    let folder = Folder::with(&[("old.obj", "old")]);
+    let ended = folder.check("run failing.vv -i octahedron.obj -o new.obj -o old.obj", 1, "failing.vv:5:");
+    assert_eq!(ended.stdout, "before\n");
+    assert_eq!(folder.read("old.obj"), "old");
+}
+
+#[test]
+fn if_one_place_cannot_be_written_to_none_is() {
+    let folder = Folder::with(&[]);
+    fs::create_dir(folder.path("folder.obj")).unwrap();
+    folder.check("run triangle.vv -o a.obj -o none/b.obj", 3, "none/b.obj: there is no directory `none`");
+    folder.check("run triangle.vv -o a.obj -o folder.obj", 3, "folder.obj: is a directory, not a file");
+    folder.check("run endless.vv -i octahedron.obj -o none/b.obj", 3, "none/b.obj");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    check("run triangle.vv -o a.obj -o /dev/full --format obj", 3, "/dev/full: no space is left on the device");
+    for arguments in ["run triangle.vv", "run triangle.vv --summary json", "mesh info square.off"] {
+        let folder = Folder::with(&[]);
+        let mut command = folder.command(arguments);
+        command.stdout(fs::OpenOptions::new().write(true).open("/dev/full").unwrap());
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{arguments}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("<stdout>: no space is left"), "{arguments}");
+    }
+}
+
+#[test]
+fn a_closed_pipe_ends_quietly() {
+    let talking = "void step(mesh& S) { while (true) print(\"again and again\"); }\n";
+    let folder = Folder::with(&[("talking.vv", talking)]);
+    for arguments in [
+        "run talking.vv -i octahedron.obj --timeout 60 -o a.obj",
+        "run triangle.vv -o - --format obj -o a.obj",
+        "run triangle.vv --summary json -o a.obj",
+        "mesh info square.off",
+    ] {
+        let before = folder.names();
+        let mut command = folder.command(arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).replace("started\n", "");
+        assert_eq!((output.status.code(), said.as_str()), (Some(3), ""), "{arguments}");
+        assert_eq!(folder.names(), before, "{arguments}");
+    }
+}
+
+#[test]
+fn a_mesh_without_vertices_is_not_written() {
+    let text = "void step(mesh& S) { forall v in S remove v from S; }\n";
+    check_file("p.vv", text, "run p.vv -i square.off -o a.obj", 1, "no vertices left");
+    check_file("p.vv", text, "run p.vv -i square.off --summary json", 0, "");
+}

@@ -1,0 +1,65 @@
+//! Pictures, and `--reference` with them.
+
+use super::*;
+
+fn size(path: &Path) -> (u32, u32) {
+    image::image_dimensions(path).unwrap()
+}
+
+#[test]
+fn a_picture_has_the_size_asked_for() {
+    let folder = Folder::with(&[]);
+    folder.check("run move.vv -i octahedron.obj -o a.png", 0, "");
+    assert_eq!(size(&folder.path("a.png")), (1280, 960));
+    folder.check("mesh convert square.off -o b.png --size 90x60", 0, "");
+    assert_eq!(size(&folder.path("b.png")), (90, 60));
+    let colors: std::collections::HashSet<_> =
+        image::open(folder.path("b.png")).unwrap().into_rgba8().pixels().copied().collect();
+    assert!(colors.len() > 2, "the picture is empty");
+}
+
+#[test]
+fn a_picture_goes_to_stdout_as_it_is() {
+    let folder = Folder::with(&[]);
+    let mut command = folder.command("run triangle.vv -o - --format png --size 8x8");
+    let output = command.output().unwrap();
+    assert_eq!((output.status.code(), &output.stdout[..4]), (Some(0), &b"\x89PNG"[..]));
+    assert_eq!(output.stderr, b"started\n");
+}
+
+#[test]
+fn a_picture_is_compared_with_an_earlier_one() {
+    let folder = Folder::with(&[]);
+    folder.check("run move.vv -i octahedron.obj -n 0 -o old.png --size 120x90", 0, "");
+    folder.check("run move.vv -i octahedron.obj -n 0 --reference old.png", 0, "");
+    let said = "the picture is not old.png: the pixel at (";
+    folder.check("run triangle.vv --reference old.png", 5, said);
+    folder.check("run triangle.vv --reference old.png --tolerance 1", 0, "");
+    let said = "it has 60x45 pixels in place of 120x90";
+    folder.check("run triangle.vv --reference old.png --size 60x45", 5, said);
+}
+
+#[test]
+fn a_reference_that_is_no_picture_is_refused() {
+    check_file("old.png", "no picture", "run triangle.vv --reference old.png", 3, "old.png: is no PNG picture");
+    check("run triangle.vv --reference none.png", 3, "none.png: there is no such file or directory");
+}
+
+/// Nothing at all is drawn to where the Vulkan loader is told to look for drivers in a file that is none.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_driver_meshes_are_made_and_pictures_say_what_they_need() {
+    let folder = Folder::with(&[]);
+    let run = |arguments| {
+        let mut command = folder.command(arguments);
+        for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
+            command.env(variable, "/dev/null");
+        }
+        command.env("WGPU_BACKEND", "vulkan").output().unwrap()
+    };
+    let output = run("run move.vv -i octahedron.obj -o a.obj -o a.png");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(6), "{said}");
+    assert!(said.contains("mesa-vulkan-drivers") && !folder.names().contains(&"a.obj".to_owned()), "{said}");
+    assert_eq!(run("run move.vv -i octahedron.obj -o a.obj --summary json").status.code(), Some(0));
+}

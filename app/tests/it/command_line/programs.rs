@@ -1,0 +1,104 @@
+//! Programs run and checked.
+
+use super::*;
+
+#[test]
+fn errors_in_the_text_end_before_anything_is_written() {
+    let text = "void step(mesh& S) {\n  x = 1;\n  y = 2;\n}\n";
+    let folder = Folder::with(&[("p.vv", text)]);
+    folder.check("run p.vv -i square.off -o a.obj", 1, "p.vv:2:\np.vv:3:");
+    folder.check("check p.vv move.vv", 1, "p.vv:2:");
+}
+
+#[test]
+fn programs_without_fault_are_checked_in_silence() {
+    assert_eq!(check("check move.vv triangle.vv endless.vv", 0, "").stdout, "");
+}
+
+#[test]
+fn every_file_is_checked_whatever_is_wrong_with_others() {
+    let folder = Folder::with(&[("p.vv", "void step(mesh& S) { x = 1; }\n")]);
+    folder.check("check none.vv p.vv", 3, "none.vv\np.vv:1:");
+}
+
+#[test]
+fn a_program_with_nothing_to_run_says_what_a_rule_is() {
+    for text in ["", "// nothing\n", "int f() { return 1; }\n"] {
+        check_file("p.vv", text, "run p.vv -i square.off", 1, "p.vv has nothing to run\nvoid name(mesh& S)");
+    }
+}
+
+#[test]
+fn an_include_is_found_beside_its_file_or_among_those_that_ship() {
+    let folder =
+        Folder::with(&[("p.vv", "#include \"insert.vv\"\n#include \"sub/q.vv\"\nvoid step(mesh& S) { q(); }\n")]);
+    folder.check("check p.vv", 1, "p.vv:2:");
+    fs::create_dir(folder.path("sub")).unwrap();
+    fs::write(folder.path("sub/q.vv"), "#include \"../p.vv\"\nvoid q() { print(\"q\"); }\n").unwrap();
+    assert_eq!(folder.check("run p.vv -i square.off", 0, "").stdout, "q\n");
+}
+
+#[test]
+fn diagnostics_come_in_three_forms() {
+    let folder = Folder::with(&[("p.vv", "void step(mesh& S) {\n  x = 1;\n}\n")]);
+    let short = folder.check("check p.vv --diagnostic-format short", 1, "p.vv:2:3: error: ").stderr;
+    assert_eq!(short.lines().count(), 1, "{short}");
+    let lines = folder.check("check p.vv --diagnostic-format json", 1, "p.vv").stderr;
+    let object = json(lines.trim());
+    assert_eq!(object["severity"], "error");
+    folder.check("check p.vv", 1, "x = 1;");
+    let lines = folder.check("check none.vv --diagnostic-format json", 3, "none.vv").stderr;
+    assert_eq!(json(lines.trim())["severity"], "error");
+    let lines = folder.check("run failing.vv -i square.off --diagnostic-format json", 1, "failing.vv").stderr;
+    assert_eq!(json(lines.trim())["severity"], "error");
+}
+
+#[test]
+fn the_default_is_one_application_of_step() {
+    for (arguments, x) in [
+        ("", "2 0 0"),
+        ("-n 0", "1 0 0"),
+        ("-n 3", "4 0 0"),
+        ("--rule shift -n 2", "3 0 0"),
+        ("--rule still", "1 0 0"),
+        ("-D far=0.5", "1.5 0 0"),
+        ("-D far=0.5 -D far=2", "3 0 0"),
+        ("-D times=-2", "-1 0 0"),
+        ("-D along=0,1,2", "1 1 2"),
+    ] {
+        let folder = Folder::with(&[]);
+        folder.check(&format!("run move.vv -i octahedron.obj -o a.obj {arguments}"), 0, "");
+        assert_eq!(vertices(&folder.read("a.obj"))[0], x, "{arguments}");
+    }
+}
+
+#[test]
+fn start_makes_its_own_mesh() {
+    let folder = Folder::with(&[]);
+    assert_eq!(folder.check("run triangle.vv -o a.obj", 0, "").stdout, "started\n");
+    assert_eq!(vertices(&folder.read("a.obj")), ["0 0 0", "1 0 0", "0 1 0"]);
+}
+
+#[test]
+fn program_and_mesh_may_come_from_stdin() {
+    let folder = Folder::with(&[]);
+    for (arguments, stdin) in [
+        ("run - -i octahedron.obj -o a.obj", MOVE),
+        ("run move.vv -i - -o a.obj", OCTAHEDRON),
+        ("run move.vv -i - -o a.obj", SQUARE),
+    ] {
+        let ended = folder.run_with_stdin(arguments, stdin);
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        assert!(folder.read("a.obj").contains("v 2 "));
+    }
+    let ended = folder.run_with_stdin("check -", "void step(mesh& S) { x = 1; }\n");
+    assert!(ended.code == Some(1) && ended.stderr.contains("<stdin>:1:22"), "{}", ended.stderr);
+}
+
+#[test]
+fn random_numbers_follow_the_seed() {
+    let folder = Folder::with(&[("p.vv", "void step(mesh& S) { print(random()); }\n")]);
+    let printed = |seed| folder.check(&format!("run p.vv -i square.off -n 2 --seed {seed}"), 0, "").stdout;
+    assert_eq!(printed(1), printed(1));
+    assert_ne!(printed(1), printed(2));
+}

@@ -1,0 +1,50 @@
+//! Command lines that are wrong.
+
+use super::*;
+
+#[test]
+fn a_command_line_that_cannot_be_meant_so_says_why() {
+    for (arguments, said) in [
+        ("run", "PROGRAM"),
+        ("run move.vv --nonsense", "--nonsense"),
+        ("run move.vv -i octahedron.obj -n -1", "-1"),
+        ("run move.vv -i octahedron.obj --timeout soon", "seconds are a number"),
+        ("run move.vv -i octahedron.obj --size 3", "a size is width and height such as 1280x960"),
+        ("run move.vv -i octahedron.obj --tolerance 1", "--reference"),
+        ("run move.vv", "move.vv has no `start` that would make a mesh, so it needs one\n`-i MESH`"),
+        ("run - -i -", "program and mesh cannot both be read from stdin"),
+        ("run move.vv -i octahedron.obj -o -", "`-o -` does not say what to write\n--format"),
+        ("run move.vv -i octahedron.obj -o x.stl", "`-o x.stl` has no extension that vv writes\n`.obj`"),
+        ("run move.vv -i octahedron.obj -o x.obj -o x.obj", "`-o x.obj` is given twice"),
+        ("run move.vv -i octahedron.obj -o - --format obj --summary json", "both need stdout"),
+        ("run move.vv -i octahedron.obj --rule stil", "no rule `stil`\n`shift`, `still` and `step`\n--rule still"),
+        ("run triangle.vv -n 2", "triangle.vv has no rule to apply 2 times, only `start`"),
+        ("run triangle.vv --rule start", "triangle.vv has no rule `start`\nit has only `start`"),
+        ("mesh convert square.off", "nothing says where to write\n-o FILE"),
+        ("mesh", "info"),
+    ] {
+        check(arguments, 2, said);
+    }
+}
+
+#[test]
+fn definitions_must_fit_the_parameters() {
+    for (definition, said) in [
+        ("far", "a definition is a name and a value"),
+        ("fax=1", "no parameter `fax`\n`far`, `times` and `along`\n-D far="),
+        ("far=wide", "`far` is a number\nits default is 1"),
+        ("far=10.5", "`far` must lie in [0, 10]"),
+        ("times=0.5", "`times` is a whole number"),
+        ("along=1,2", "`along` is a vector, written x,y,z\n1,0,0"),
+    ] {
+        check(&format!("run move.vv -i octahedron.obj -D {definition}"), 2, said);
+    }
+    check("run triangle.vv -D a=1", 2, "it has no parameters\nparam double a");
+}
+
+#[test]
+fn help_and_version_are_there() {
+    let help = check("run --help", 0, "").stdout;
+    assert!(help.contains("Exit codes:") && help.contains("Examples:"));
+    assert!(check("--version", 0, "").stdout.starts_with("vv "));
+}
