@@ -18,6 +18,7 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "paper-butterfly.vv", text: include_str!("../../assets/programs/paper-butterfly.vv") },
     Shipped { name: "paper-sqrt3.vv", text: include_str!("../../assets/programs/paper-sqrt3.vv") },
     Shipped { name: "loop.vv", text: include_str!("../../assets/programs/loop.vv") },
+    Shipped { name: "mountain.vv", text: include_str!("../../assets/programs/mountain.vv") },
     Shipped { name: "insert.vv", text: include_str!("../../assets/programs/insert.vv") },
 ];
 
