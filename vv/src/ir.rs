@@ -367,7 +367,7 @@ pub enum ExprKind {
     And(Box<Expr>, Box<Expr>),
     /// `a || b`: b only if not a. Both bool.
     Or(Box<Expr>, Box<Expr>),
-    /// `condition ? then : otherwise`, the condition bool, the others of one type; one of them is computed.
+    /// `condition ? then : otherwise`, the condition bool, the others of one type, a mesh too; one of them is computed.
     Conditional(Box<Expr>, Box<Expr>, Box<Expr>),
     /// A coordinate (0, 1, 2) of a vec that is no place.
     Coordinate(Box<Expr>, u8),
@@ -376,7 +376,7 @@ pub enum ExprKind {
     /// Calls a function of the language.
     Builtin(Builtin, Vec<Expr>),
     /// Stores a value in a place, `op` combines it with what was there: `place = place op value`. The result is what
-    /// was stored. `convert` is applied to the result of `op` before the store (`int i; i *= 1.5;` computes in double).
+    /// was stored. `int i; i *= 1.5;` computes in double and narrows the result before the store.
     Assign {
         /// Where to.
         place: Box<Place>,

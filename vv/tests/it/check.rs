@@ -5,6 +5,7 @@ mod fixes;
 mod limits;
 mod listings;
 mod messages;
+mod mutations;
 mod names;
 
 use vv::diagnostic::{Diagnostic, Severity};
