@@ -4,8 +4,8 @@
 //   a := mix(a, b, (near - a.w) / (b.w - a.w))
 // The opacity of a pixel is that part of it which the line covers, about
 //   clamp(width / 2 + 1/2 - d, 0, 1)          d its distance from the segment in pixels
-// Lines are drawn as if nearer by k pixels' worth of depth, w := w (1 - k * pixel), so that they win against the faces
-// they bound at any zoom.
+// Lines are drawn as if nearer by k pixels' worth of depth, w := w (1 - k * pixel) with k more than the width, so that
+// they win against the faces they bound at any zoom. (To push the faces back instead lets back faces win at outlines.)
 //
 // On a dense mesh lines would cover everything. Lines are about
 //   s = |b - a| / (pixel * w) * max(|n.v|, 1/4)
@@ -16,7 +16,7 @@
 @group(1) @binding(0) var<storage, read> corners: array<u32>; // 5 words each: position, normal, normal of a face
 @group(1) @binding(1) var<storage, read> edges: array<vec2<u32>>;
 
-const PULL = 1.5; // pixels
+const PULL = 0.5; // points
 const GONE_AT = 2.5; // pixels between lines
 const FULL_AT = 16.0;
 
@@ -66,13 +66,14 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     var color = layer.strong_line;
     if !strong {
         let apart = spacing(ends, a, b, 0.5 * (p.w + q.w)) / frame.scale;
-        if apart < GONE_AT {
+        let room = smoothstep(GONE_AT, FULL_AT, apart);
+        let opacity = max(sqrt(room), layer.faintest);
+        if opacity <= 0.0 {
             return out;
         }
-        let room = smoothstep(GONE_AT, FULL_AT, apart);
         width = layer.line_width * mix(0.6, 1.0, room);
         color = layer.line;
-        color.a *= sqrt(room);
+        color.a *= opacity;
     }
     // A line thinner than a pixel is one of a pixel, fainter.
     color.a *= layer.opacity * min(width, 1.0);
@@ -90,7 +91,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let reach = width * 0.5 + 1.0;
     let along = select(-reach, span + reach, at_end);
     let at = start + direction * along + vec2(-direction.y, direction.x) * side * reach;
-    let w = select(p.w, q.w, at_end) * max(1.0 - PULL * frame.scale * frame.pixel, 0.5);
+    let w = select(p.w, q.w, at_end) * max(1.0 - (1.5 * width + PULL * frame.scale) * frame.pixel, 0.5);
 
     out.position = to_tile(vec4(at / (frame.size * 0.5), min(frame.near / w, 1.0), 1.0));
     out.along = along;

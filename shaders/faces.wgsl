@@ -9,10 +9,10 @@
 // vertices. The back of a face has an albedo of its own.
 
 const UP = vec3(0.0, 0.98, 0.2);
-const SKY = vec3(0.50, 0.53, 0.58);
-const GROUND = vec3(0.20, 0.18, 0.17);
-const KEY_DIRECTION = vec3(-0.40, 0.62, 0.675);
-const KEY = vec3(0.74, 0.72, 0.68);
+const SKY = vec3(0.40, 0.43, 0.48);
+const GROUND = vec3(0.17, 0.155, 0.15);
+const KEY_DIRECTION = vec3(-0.58, 0.52, 0.627);
+const KEY = vec3(0.88, 0.85, 0.80);
 const FILL_DIRECTION = vec3(0.78, -0.05, 0.62);
 const FILL = vec3(0.10, 0.12, 0.15);
 const GLOSS = 0.11;

@@ -31,7 +31,9 @@ struct Layer {
     point_size: f32,
     spacing: f32, // mean length of edges in scene coordinates, 0 if there are none
     strong_from: u32, // edges from this on are strong
+    lonely_count: u32, // vertices before this one have no edges
     opacity: f32,
+    faintest: f32, // opacity of lines that crowd
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

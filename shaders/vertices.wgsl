@@ -3,13 +3,13 @@
 // The opacity of a pixel is that part of it which the disc covers, about
 //   clamp(size / 2 + 1/2 - d, 0, 1)           d its distance from the centre in pixels
 // Discs are drawn as if nearer by their radius' worth of depth, so that the surface around a vertex does not cut them.
-// On a dense mesh they shrink to a third of the mean distance between vertices, and fade below a pixel.
+// On a dense mesh they shrink to 2/5 of the mean distance between vertices as it is seen, as with edges, and fade.
 
 @group(0) @binding(1) var<uniform> layer: Layer;
 @group(1) @binding(0) var<storage, read> corners: array<u32>; // 5 words each: position, normal, normal of a face
 
 const RING = 1.0; // points
-const ROOM = 0.33;
+const ROOM = 0.4;
 
 struct Varying {
     @builtin(position) position: vec4<f32>,
@@ -29,10 +29,12 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
         return out;
     }
     var size = layer.point_size;
-    if layer.spacing > 0.0 {
-        size = min(size, ROOM * layer.spacing / (frame.pixel * p.w));
+    if layer.spacing > 0.0 && i >= layer.lonely_count {
+        let n = unpack_normal(corners[i * 5u + 3u]);
+        let facing = abs(dot(n, normalize(frame.eye - position)));
+        size = min(size, ROOM * layer.spacing * max(facing, 0.35) / (frame.pixel * p.w));
     }
-    let opacity = smoothstep(0.3, 1.5, size) * layer.opacity;
+    let opacity = smoothstep(0.7, 2.5, size / frame.scale) * layer.opacity;
     if opacity <= 0.0 {
         return out;
     }

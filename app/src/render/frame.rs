@@ -69,8 +69,9 @@ pub(super) struct Layer {
     point_size: f32,
     spacing: f32,
     strong_from: u32,
+    lonely_count: u32,
     opacity: f32,
-    padding: [u32; 2],
+    faintest: f32,
 }
 
 /// How many layers there are: the mesh, the control mesh, and what of the control mesh lies behind faces.
@@ -83,6 +84,8 @@ const HIDDEN_CONTROL: usize = 2;
 const STRONG: f32 = 2.2;
 /// Opacity of what shows through the surface.
 const HIDDEN: f32 = 0.22;
+/// Opacity of crowded lines where there is nothing but lines.
+const FAINTEST: f32 = 0.15;
 /// As in `shaders/edges.wgsl`: points between lines below which they are not drawn.
 const GONE_AT: f64 = 2.5;
 
@@ -126,8 +129,9 @@ pub(super) fn layers(scene: &Uploaded, style: &Style, scale: f32) -> [Layer; LAY
         point_size: style.vertex_size * scale,
         spacing: spacing(&scene.mesh),
         strong_from: scene.mesh.as_ref().map_or(0, |p| p.inner_edge_count),
+        lonely_count: scene.mesh.as_ref().map_or(0, |p| p.lonely_count),
         opacity: 1.0,
-        padding: [0; 2],
+        faintest: if style.faces { 0.0 } else { FAINTEST },
     };
     let color = linear(palette.control);
     let control = Layer {
@@ -138,6 +142,8 @@ pub(super) fn layers(scene: &Uploaded, style: &Style, scale: f32) -> [Layer; LAY
         strong_width: style.edge_width * scale,
         spacing: spacing(&scene.control),
         strong_from: scene.control.as_ref().map_or(0, |p| p.inner_edge_count),
+        lonely_count: scene.control.as_ref().map_or(0, |p| p.lonely_count),
+        faintest: FAINTEST,
         ..mesh
     };
     [mesh, control, Layer { opacity: HIDDEN, ..control }]
@@ -171,13 +177,16 @@ pub(super) struct LayerDraw {
 /// Lines and points in the order in which they are drawn.
 pub(super) fn layer_draws(scene: &Uploaded, camera: &Camera, style: &Style, picture: Size) -> Vec<LayerDraw> {
     let mut draws = Vec::new();
-    let edges = |part: &PartBuffers| first_edge(scene, part, camera, style, picture)..part.edge_count;
     if let Some(mesh) = &scene.mesh {
         draws.push(LayerDraw {
             part: Which::Mesh,
             layer: MESH,
             hidden: false,
-            edges: if style.edges { edges(mesh) } else { 0..0 },
+            edges: match (style.edges, style.faces) {
+                (true, true) => first_edge(scene, mesh, camera, style, picture)..mesh.edge_count,
+                (true, false) => 0..mesh.edge_count,
+                (false, _) => 0..0,
+            },
             vertices: 0..if style.vertices { mesh.vertex_count } else { mesh.lonely_count },
         });
     }
@@ -185,8 +194,8 @@ pub(super) fn layer_draws(scene: &Uploaded, camera: &Camera, style: &Style, pict
         && let Some(control) = &scene.control
     {
         for (layer, hidden) in [(HIDDEN_CONTROL, true), (CONTROL, false)] {
-            let vertices = 0..control.vertex_count;
-            draws.push(LayerDraw { part: Which::Control, layer, hidden, edges: edges(control), vertices });
+            let (edges, vertices) = (0..control.edge_count, 0..control.vertex_count);
+            draws.push(LayerDraw { part: Which::Control, layer, hidden, edges, vertices });
         }
     }
     draws

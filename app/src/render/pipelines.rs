@@ -27,7 +27,7 @@ struct Pass {
     name: &'static str,
     shader: &'static str,
     depth: wgpu::CompareFunction,
-    /// Faces: cover what is there and write depth, a little behind where they are, so that lines on them win.
+    /// Covers what is there and writes depth; otherwise blends over it.
     solid: bool,
     buffers: &'static [Option<wgpu::VertexBufferLayout<'static>>],
 }
@@ -108,8 +108,6 @@ fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, samples: u32, 
         label: Some(pass.name),
         source: wgpu::ShaderSource::Wgsl(pass.shader.into()),
     });
-    // Depth is reversed, so behind is less. The slope part covers lines up to three pixels wide on steep faces.
-    let behind = wgpu::DepthBiasState { constant: -1, slope_scale: -1.5, clamp: 0.0 };
     let over = wgpu::BlendState {
         color: wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::SrcAlpha,
@@ -133,7 +131,7 @@ fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, samples: u32, 
             depth_write_enabled: Some(pass.solid),
             depth_compare: Some(pass.depth),
             stencil: wgpu::StencilState::default(),
-            bias: if pass.solid { behind } else { wgpu::DepthBiasState::default() },
+            bias: wgpu::DepthBiasState::default(),
         }),
         multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {

@@ -8,4 +8,6 @@
 )]
 
 mod command_line;
+mod fixtures;
+mod pictures;
 mod shaders;
