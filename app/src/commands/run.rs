@@ -68,7 +68,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
     /// How far the reference may be off: for meshes a distance, by default 1e-9; for pictures the difference of a colour
-    /// channel from 0 to 1, by default 0.
+    /// channel from 0 to 1 (of single pixels at outlines four times that), by default 0.
     #[arg(long, value_name = "X", requires = "reference", value_parser = tolerance)]
     tolerance: Option<f64>,
     #[command(flatten)]

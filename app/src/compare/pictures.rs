@@ -4,6 +4,9 @@ use std::fmt;
 
 use image::RgbaImage;
 
+/// A pixel by itself may be off by this many times the tolerance.
+const ALONE: f64 = 4.0;
+
 /// One pixel of so many may be off altogether: where an outline passes through the middle of a pixel, drivers differ on
 /// which side it lies.
 const ONE_STRAY_OF: usize = 10_000;
@@ -18,7 +21,7 @@ pub enum PictureDifference {
         /// Those of the reference.
         expected: (u32, u32),
     },
-    /// Pixels of other colours.
+    /// Pixels of other colours, off by more than four times the tolerance.
     Pixels {
         /// Column and row, from 0 at the upper left, of the pixel that is furthest off.
         at: (u32, u32),
@@ -26,10 +29,11 @@ pub enum PictureDifference {
         found: [u8; 4],
         /// The colour it should have.
         expected: [u8; 4],
-        /// How many pixels are further off than the tolerance.
+        /// How many pixels are.
         count: usize,
     },
-    /// A patch of 3×3 pixels in which a channel is off to the same side everywhere: no rounding does that.
+    /// A patch of 3×3 pixels in which a channel is off by more than the tolerance, everywhere to the same side: no
+    /// rounding does that.
     Patch {
         /// Column and row of its middle.
         at: (u32, u32),
@@ -49,21 +53,20 @@ impl fmt::Display for PictureDifference {
                 let (found, expected) = (color(*found), color(*expected));
                 let others = if *count == 1 { "pixel is" } else { "pixels are" };
                 write!(f, "the pixel at ({x}, {y}) is {off:.3} off, {found} in place of {expected}; ")?;
-                write!(f, "{count} {others} further off than the tolerance")
+                write!(f, "{count} {others} further off than four times the tolerance")
             }
             Self::Patch { at: (x, y), by } => {
                 let how = if *by > 0 { "brighter" } else { "darker" };
                 let by = f64::from(by.unsigned_abs()) / 255.0;
-                write!(f, "the pixels around ({x}, {y}) are all {how}, by {by:.3} or more: ")?;
-                write!(f, "a patch may be off by a quarter of the tolerance")
+                write!(f, "the pixels around ({x}, {y}) are all {how}, by {by:.3} or more")
             }
         }
     }
 }
 
-/// Compares a picture with a reference of the same size. Each colour channel, from 0 to 1, may differ by `tolerance`,
-/// but within no patch of 3×3 pixels everywhere to the same side by more than a quarter of it. One pixel of 10,000 may
-/// differ by more, unless the tolerance is 0. Linear in the number of pixels.
+/// Compares a picture with a reference of the same size. In no patch of 3×3 pixels may a colour channel, from 0 to 1, be
+/// off everywhere by more than `tolerance` to the same side. A pixel by itself may be off by four times as much; one of
+/// 10,000 by even more, unless the tolerance is 0. Linear in the number of pixels.
 ///
 /// # Errors
 /// The first kind of difference in the order of [`PictureDifference`].
@@ -77,7 +80,7 @@ pub fn compare_pictures(picture: &RgbaImage, reference: &RgbaImage, tolerance: f
     let (mut count, mut at, mut most) = (0, (0, 0), 0);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let by = off(x, y).into_iter().map(i16::unsigned_abs).max().unwrap_or_default();
-        count += usize::from(f64::from(by) / 255.0 > tolerance);
+        count += usize::from(f64::from(by) / 255.0 > ALONE * tolerance);
         if by > most {
             (at, most) = ((x, y), by);
         }
@@ -87,7 +90,7 @@ pub fn compare_pictures(picture: &RgbaImage, reference: &RgbaImage, tolerance: f
         let (found, expected) = (picture.get_pixel(at.0, at.1).0, reference.get_pixel(at.0, at.1).0);
         return Err(PictureDifference::Pixels { at, found, expected, count });
     }
-    let slight = |by: i16| f64::from(by.abs()) / 255.0 <= tolerance / 4.0;
+    let slight = |by: i16| f64::from(by.abs()) / 255.0 <= tolerance;
     for (x, y) in (1..height.max(1) - 1).flat_map(|y| (1..width.max(1) - 1).map(move |x| (x, y))) {
         if off(x, y).into_iter().all(slight) {
             continue;
@@ -117,7 +120,7 @@ mod tests {
     use super::*;
     use image::Rgba;
 
-    const TOLERANCE: f64 = 8.0 / 255.0;
+    const TOLERANCE: f64 = 2.0 / 255.0;
     const GREY: Rgba<u8> = Rgba([100, 100, 100, 255]);
 
     /// Compares a grey picture of 100×200 pixels, in which `paint` changed something, with one in which nothing was.
@@ -152,7 +155,7 @@ mod tests {
         check(
             |p| fill(p, (50, 60), (3, 1), [100, 160, 100, 255]),
             "the pixel at (50, 60) is 0.235 off, #64a064ff in place of #646464ff; \
-             3 pixels are further off than the tolerance",
+             3 pixels are further off than four times the tolerance",
         );
     }
 
@@ -175,11 +178,11 @@ mod tests {
     fn a_patch_a_little_off_is() {
         check(
             |p| fill(p, (10, 10), (3, 3), [100, 103, 100, 255]),
-            "the pixels around (11, 11) are all brighter, by 0.012 or more: a patch may be off by a quarter of the tolerance",
+            "the pixels around (11, 11) are all brighter, by 0.012 or more",
         );
         check(
             |p| fill(p, (97, 197), (3, 3), [100, 100, 100, 250]),
-            "the pixels around (98, 198) are all darker, by 0.020 or more: a patch may be off by a quarter of the tolerance",
+            "the pixels around (98, 198) are all darker, by 0.020 or more",
         );
     }
 

@@ -19,7 +19,7 @@ use app::scene::{Scene, Style, Theme};
 use vv::mesh::Mesh;
 
 /// Versions of the driver round differently; what a person would see is more.
-const TOLERANCE: f64 = 8.0 / 255.0;
+const TOLERANCE: f64 = 2.0 / 255.0;
 
 const SIZE: Size = Size { width: 240, height: 180, scale: 1.0 };
 
