@@ -16,7 +16,8 @@ use crate::stop::{Stop, Stopped};
 pub struct Limits {
     /// Vertices in the universe, those that `start` or import made included.
     pub max_vertices: usize,
-    /// Bytes of rings, columns, old values and sets.
+    /// Bytes of rings, columns, old values and sets, and of all that was printed (somebody may keep it). Counted now and
+    /// then, so a step may go over it by a sixteenth.
     pub max_bytes: usize,
     /// Calls open at once.
     pub max_call_depth: u32,

@@ -9,17 +9,25 @@
 //! **Numbers.** `int` is `i64`, overflow and division by zero are errors. `double` is IEEE 754 binary64, no fused
 //! operations; functions come from one library on every machine ([`crate::builtins`]). `double` to `int` truncates; NaN
 //! and what does not fit are errors. `vec` operations work on x, y, z in that order; `dot` is `(x·x + y·y) + z·z`.
+//! [`arithmetic`] is the definition.
 //!
 //! **Null.** `null` compares with vertices (it comes first) and converts to `bool`. As the vertex whose ring, position
-//! or property is meant it is an error; as an operand that a ring is searched for it is an error unless *written*
-//! ([`Item::Gap`]); as something put into a ring it is a gap.
+//! or property is meant, or that is added or removed, it is an error; as an operand that a ring is searched for it is
+//! an error unless *written* ([`Item::Gap`]); as something put into a ring it is a gap. A null where none may be is an
+//! error as soon as it is computed, before anything that follows in order; likewise a vertex without an old value where
+//! its old value is meant.
 //!
 //! **Sets and loops.** `forall` walks a set or ring as it stood when the loop began. A set iterates in order of
 //! addition.
 //!
 //! **Old values.** [`StmtKind::Synchronize`] gives every vertex of the set a copy of its ring, position, vertex
 //! properties and edge values. The copy belongs to the vertex: the last `synchronize` that covered it wins. None
-//! outlives the step. Reading an old value that is not there is an error.
+//! outlives the step. Reading an old value that is not there is an error. The old value of an edge is there if both
+//! ends have old values; then it is [`crate::mesh::Mesh::edge_value`] of the old copies.
+//!
+//! **Runs.** Before a rule runs the globals are computed in order; the rule's `S` has the members of
+//! [`crate::mesh::Mesh::set`] and the mesh's own properties, and gives both back when it ends. A stop is asked for at
+//! every round of a loop and at every call.
 
 pub mod arithmetic;
 
@@ -244,7 +252,7 @@ pub enum StmtKind {
     Break,
     /// Goes on with the innermost loop's next round.
     Continue,
-    /// Leaves the function with its value.
+    /// Leaves the function with its value. A mesh is returned with its members and mesh properties.
     Return(Option<Expr>),
     /// `make {…} nb_of v`. First the items, then `v`.
     Make {
@@ -303,7 +311,8 @@ pub enum StmtKind {
         /// Of type mesh.
         other: Expr,
     },
-    /// Writes the items one after the other, without spaces between, and ends the line.
+    /// Writes the items one after the other, without spaces between, and ends the line. The line is written when all
+    /// items are computed.
     Print(Vec<PrintItem>),
 }
 
@@ -312,8 +321,9 @@ pub enum StmtKind {
 pub enum PrintItem {
     /// A string literal.
     Text(String),
-    /// A value: `true`, `42`, the shortest decimal that reads back as the same double, `(x, y, z)`, `v7`, `null`; a
-    /// mesh prints as its members, `{v1, v2}`.
+    /// A value: `true`, `42`, `(x, y, z)`, `v7`, `null`; a mesh prints as its members, `{v1, v2}`. A double is the
+    /// shortest decimal that reads back as the same double: `1`, `0.1`, `-0`, with an exponent below 1e-5 and from 1e16
+    /// on (`1e-7`), `inf`, `-inf`, `nan`.
     Value(Expr),
 }
 

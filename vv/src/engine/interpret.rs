@@ -23,11 +23,12 @@ use fault::{Fault, Run};
 use old::Old;
 use origin::Trace;
 
-/// Native stack that one statement with its expressions may need, at most: nesting is bounded by the parser.
-const RED_ZONE: usize = 512 << 10;
+/// Native stack that a call may need before it calls again: the parser lets statements and expressions nest 200 deep
+/// each, and a level takes up to 5 KB without optimization.
+const RED_ZONE: usize = 2 << 20;
 
 /// What the native stack grows by.
-const STACK_SEGMENT: usize = 4 << 20;
+const STACK_SEGMENT: usize = 16 << 20;
 
 /// Work on large sets is polled for a stop this often.
 const POLL_STRIDE: usize = 4096;
@@ -197,9 +198,10 @@ struct Machine<'a> {
 impl<'a> Machine<'a> {
     fn run(mut self, function: FunctionId) -> Run<Mesh> {
         self.compute_globals()?;
-        let Some(function) = self.program.function(function) else { return Ok(self.mesh) };
-        self.stack.push(Slot::Set(0));
-        self.open(function, None, 0, 1)?;
+        if let Some(function) = self.program.function(function) {
+            self.stack.push(Slot::Set(0));
+            self.open(function, None, 0, 1)?;
+        }
         let mut mesh = self.mesh;
         if let Some(set) = self.sets.into_iter().next() {
             mesh.set = set.members;
@@ -239,7 +241,7 @@ impl<'a> Machine<'a> {
             self.stack.push(slot);
         }
         self.returned = Value::Bool(false);
-        self.block(&function.body)?;
+        stacker::maybe_grow(RED_ZONE, STACK_SEGMENT, || self.block(&function.body))?;
         self.frames.pop();
         self.stack.truncate(base);
         self.sets.truncate(sets);
@@ -255,15 +257,13 @@ impl<'a> Machine<'a> {
     }
 
     fn block(&mut self, statements: &'a [Stmt]) -> Run<Flow> {
-        stacker::maybe_grow(RED_ZONE, STACK_SEGMENT, || {
-            for statement in statements {
-                match self.statement(statement)? {
-                    Flow::Next => {}
-                    other => return Ok(other),
-                }
+        for statement in statements {
+            match self.statement(statement)? {
+                Flow::Next => {}
+                other => return Ok(other),
             }
-            Ok(Flow::Next)
-        })
+        }
+        Ok(Flow::Next)
     }
 
     /// Where a variable itself lies on the stack.

@@ -8,6 +8,7 @@ mod boundary;
 mod budgets;
 mod errors;
 mod functions;
+mod generated;
 mod loops;
 mod numbers;
 mod old;

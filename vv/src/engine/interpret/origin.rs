@@ -110,14 +110,20 @@ impl Machine<'_> {
                     .about(std::iter::once(*v).chain(*x));
                 if *found {
                     fault = fault.hint(format!("{v} lies on a boundary: test `{code} == null` first"));
+                } else if x.is_some() && !old && self.old.holds(*v) && self.old.mesh.ring(*v).contains(*x) {
+                    let old_ring = text::ring(self.old.mesh.ring(*v), *x);
+                    fault = fault.evidence(format!("old ring of {v}: {old_ring}"));
+                    fault = fault.hint("the old ring holds it: is that the one meant, with a ` before the vertex?");
                 }
                 fault
             }
             Reason::Held { target } => {
                 let (held, vertices) = self.describe(*target);
-                fault
-                    .label(origin.span, format!("{held} is null: no vertex was stored there in this step"))
-                    .about(vertices)
+                let was_old =
+                    matches!(target, Target::VertexProperty { old: true, .. } | Target::EdgeProperty { old: true, .. });
+                let why =
+                    if was_old { "it was so when synchronized" } else { "no vertex was stored there in this step" };
+                fault.label(origin.span, format!("{held} is null: {why}")).about(vertices)
             }
         }
     }

@@ -25,7 +25,12 @@ impl Parser<'_> {
             "synchronize" | "synchronise" => self.operand_at(start + 1),
             // `add(p, q)` may be a call of a function of that name.
             _ if next == Kind::OpenParen => {
-                self.behind_parentheses(start + 1).is_some_and(|behind| self.kind_at(behind) == Kind::Word)
+                self.behind_parentheses(start + 1).is_some_and(|mut behind| {
+                    while self.kind_at(behind) == Kind::Dollar {
+                        behind += 2; // `add (any in v)$mate to S`
+                    }
+                    self.kind_at(behind) == Kind::Word
+                })
             }
             _ => self.operand_at(start + 1),
         };

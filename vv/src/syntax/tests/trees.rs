@@ -139,6 +139,7 @@ fn words_are_contextual() {
         "(= print 1) (+= print 2) (= print$x 3) (= make 4) (post++ merge)",
     );
     check("add(p, q); erase(x); x = remove(p) + 1;", "(call add p q) (call erase x) (= x (+ (call remove p) 1))");
+    check("add (any in v)$mate to S;", "(add (any v)$mate S)");
     check("valence = 3; x = valence * gaps - is;", "(= valence 3) (= x (- (* valence gaps) is))");
     check(
         "vertex to, from, with, after; add to to S; erase from from with; replace with with after in to;",

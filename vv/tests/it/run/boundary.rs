@@ -184,3 +184,17 @@ fn the_origin_is_found_through_calls_and_properties() {
          about v1",
     );
 }
+
+#[test]
+fn a_neighbour_that_only_the_old_ring_holds_is_pointed_out() {
+    check_body(
+        "mesh T; add f to T; make {a, b} nb_of f; synchronize T; replace a with c in f;
+         print (nextto a in f)$pos;",
+        "error 3:16 `(nextto a in f)$pos`: null has no position
+         at 3:16 `(nextto a in f)`: `nextto a in f` is null here: v1 is not in the ring of v6
+         = ring of v6: v3 v2
+         = old ring of v6: v1 v2
+         ? the old ring holds it: is that the one meant, with a ` before the vertex?
+         about v6 v1",
+    );
+}

@@ -7,7 +7,7 @@ use vv::engine::{Failure, FailureKind, Limits, Settings, run};
 use vv::mesh::Mesh;
 use vv::stop::{Stop, Stopped};
 
-use super::compile;
+use super::{check, compile};
 
 #[track_caller]
 fn fail(text: &str, settings: &Settings) -> Failure {
@@ -72,16 +72,30 @@ fn calls() {
 
 #[test]
 fn deep_nesting_within_deep_recursion() {
-    let nested = format!("{}f(n - 1){}", "(1 + ".repeat(60), ")".repeat(60));
-    let text = format!(
-        "int f(int n) {{ if (n == 0) return 0; {{ {{ {{ while (true) {{ forall v in g() return {nested}; }} }} }} }} }}
-         mesh g() {{ mesh T; vertex x; add x to T; return T; }}
-         void step(mesh& S) {{ print f(9000); }}"
-    );
-    let program = compile(&text);
-    let mut output = Vec::new();
-    run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, &Settings::default(), &mut output).unwrap();
-    assert_eq!(output, ["540000"]);
+    // Near the 200 levels that the parser lets through.
+    let deep = |n: usize, before: &str, after: &str| format!("{}next(n){}", before.repeat(n), after.repeat(n));
+    for body in [
+        format!("return {};", deep(95, "(a == b ? a : ", ")")),
+        format!("return {};", deep(95, "(a = ", ")")),
+        format!("return {};", deep(95, "same(", ")")),
+        format!("return {};", deep(94, "(nextto ", " in a)")),
+        format!("return {};", deep(95, "(", "$mate)")),
+        format!("{} return next(n); {} return a;", "{ while (true) ".repeat(95), "}".repeat(95)),
+        format!("{} return next(n); {} return a;", "forall x in a { if (x == a) break; ".repeat(95), "}".repeat(95)),
+    ] {
+        let text = format!(
+            "vertex {{ vertex mate; }};
+             vertex same(vertex v) {{ return v; }}
+             vertex f(int n, vertex a, vertex b) {{ {body} }}
+             vertex g(int n, vertex a, vertex b) {{
+               vertex c; b$mate = b; make {{b, c}} nb_of a;
+               return n == 0 ? b : f(n - 1, a, b);
+             }}
+             void step(mesh& S) {{ vertex a, b; vertex c = g(1000, a, b); print c == null; }}"
+        )
+        .replace("next(n)", "g(n, a, b)");
+        check(&text, "false");
+    }
 }
 
 #[test]
