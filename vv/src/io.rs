@@ -84,8 +84,9 @@ fn invalid(line: Option<u32>, message: impl Into<String>) -> ReadError {
     ReadError::Invalid { line, diagnostic: Box::new(Diagnostic::new(Severity::Error, None, message)) }
 }
 
-/// Reads a mesh: its vertices in the order of the file, all in its set; rings as [`build::build`] makes them. The diagnostics
-/// say everything that was changed to make it a rotation system (warnings) or not read (notes); they have no spans.
+/// Reads a mesh: its vertices in the order of the file, all in its set; rings as [`build::build`] makes them. The
+/// diagnostics say everything that was changed to make it a rotation system (warnings) or not read (notes); they have
+/// no spans.
 ///
 /// Numbers are doubles, correctly rounded. Cost: linear in the size of the text, whatever counts the text announces.
 ///
@@ -108,9 +109,9 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions) -> Result<(Mesh
     Ok((mesh, diagnostics))
 }
 
-/// Writes a mesh: the vertices of its set in order of creation, its faces as polygons. Numbers are the shortest decimals that
-/// read back as the same doubles. What was written and read is written the same, byte for byte (but for three or more
-/// fans of faces in one vertex, whose order polygons do not tell).
+/// Writes a mesh: the vertices of its set in order of creation, its faces as polygons. Numbers are the shortest
+/// decimals that read back as the same doubles. What was written and read is written the same, byte for byte (but for
+/// three or more fans of faces in one vertex, whose order polygons do not tell).
 ///
 /// Polygons do not tell of edges without faces, nor of properties; a face of two corners, the edge that is a component
 /// by itself, is left out.

@@ -295,8 +295,9 @@ impl Mesh {
     /// Cost: nothing but a scan where the set is the whole universe and the arena is tight.
     pub fn keep_only_set(&mut self) -> usize {
         let n = self.vertex_count();
-        let forgotten = n - self.set.len();
-        if forgotten == 0 {
+        let members = self.set.iter().filter(|v| v.index() < n).count();
+        let forgotten = n - members;
+        if forgotten == 0 && self.set.len() == members {
             self.rings.tidy();
             return 0;
         }

@@ -1,6 +1,7 @@
 //! Lines of a text file that may be anything: any line ends, comments, bytes that are no UTF-8.
 
-/// The lines of a text with their numbers, from 1, without line ends and comments (from `#`). LF, CR LF and CR end lines.
+/// The lines of a text with their numbers, from 1, without line ends and comments (from `#`). LF, CR LF and CR end
+/// lines.
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: &'a [u8],

@@ -1,9 +1,10 @@
 //! Wavefront OBJ, through tobj.
 //!
-//! Left to itself tobj numbers vertices by their first use in faces and drops unused ones, starts a mesh with vertices of its own
-//! at each group, takes polylines for faces, fails at continued lines, at comments behind numbers and at colours of some vertices,
-//! accepts NaN, and does not name lines. So it is handed a text of vertices and faces alone, one statement to a line, that begins
-//! with a face of all vertices, which keeps them all and their order. The line it read last is where a statement is wrong.
+//! Left to itself tobj numbers vertices by their first use in faces and drops unused ones, starts a mesh with vertices
+//! of its own at each group, takes polylines for faces, fails at continued lines, at comments behind numbers and at
+//! colours of some vertices, accepts NaN, and does not name lines. So it is handed a text of vertices and faces alone,
+//! one statement to a line, that begins with a face of all vertices, which keeps them all and their order. The line it
+//! read last is where a statement is wrong.
 
 use std::borrow::Cow;
 use std::io::{self, BufRead, Read, Write};
@@ -69,6 +70,10 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     if let Some(index) = positions.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(text, index));
     }
+    if let Some((line, statement)) = cut_off(text) {
+        let message = format!("the file ends within a face, after {}; it was probably cut off", show(&statement));
+        return Err(invalid(Some(line), message));
+    }
     let mut polygons = Polygons::new(positions);
     let mut corners = &mesh.indices[vertex_count.min(mesh.indices.len())..];
     for (i, &line) in lines.iter().enumerate() {
@@ -110,6 +115,14 @@ impl<'a> Iterator for Statements<'a> {
         }
         Some((number, statement))
     }
+}
+
+/// The last statement, if it is a face of fewer than three corners without an end of the line.
+fn cut_off(text: &[u8]) -> Option<(u32, Cow<'_, [u8]>)> {
+    if text.ends_with(b"\n") || text.ends_with(b"\r") {
+        return None;
+    }
+    Statements::new(text).last().filter(|(_, s)| keyword(s) == b"f" && words(s).count() < 4)
 }
 
 fn keyword(statement: &[u8]) -> &[u8] {

@@ -12,18 +12,18 @@ use crate::mesh::build::Polygons;
 use crate::mesh::faces::Faces;
 use crate::stop::Stop;
 
-/// Reads the header (`OFF`, also with the prefixes `ST`, `C`, `N` for what is not read; it may be missing), the counts, the
-/// vertices and the faces. Comments and blank lines may stand anywhere.
+/// Reads the header (`OFF`, also with the prefixes `ST`, `C`, `N` for what is not read; it may be missing), the counts,
+/// the vertices and the faces. Comments and blank lines may stand anywhere.
 ///
-/// One vertex or face stands on a line, and what follows on it (normals, colours) is passed over; a file with too few lines for
-/// that is read as a stream of words.
+/// One vertex or face stands on a line, and what follows on it (normals, colours) is passed over; a file with too few
+/// lines for that is read as a stream of words.
 pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic>), ReadError> {
     let mut words = Words::new(text);
     let extras = header(&mut words)?;
     let vertex_count = count(&mut words, "vertices")?;
     let face_count = count(&mut words, "faces")?;
     if let Some(edges) = words.next_on_line() {
-        integer(edges).map_err(|why| invalid(Some(words.line), format!("as the number of edges {why}")))?;
+        integer(edges, words.line, "the number of edges")?;
     }
     let stream = words.lines_left() < vertex_count.saturating_add(u64::from(face_count > 0));
     let mut ignored = !stream && words.finish_line() > 0;
@@ -58,8 +58,7 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
             return Err(invalid(Some(words.line), message));
         };
         let line = words.line;
-        let len =
-            integer(word).map_err(|why| invalid(Some(line), format!("as the number of corners of face {n} {why}")))?;
+        let len = integer(word, line, "the number of corners of a face")?;
         corners.clear();
         while (corners.len() as u64) < len {
             let word = if stream { words.next() } else { words.next_on_line() };
@@ -67,7 +66,7 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
                 let message = format!("face {n} announces {len} corners, but there are {}", corners.len());
                 return Err(invalid(Some(line), message));
             };
-            let corner = integer(word).map_err(|why| invalid(Some(words.line), format!("face {n}: {why}")))?;
+            let corner = integer(word, words.line, "a vertex of the face, numbered from 0")?;
             match u32::try_from(corner) {
                 Ok(corner) if u64::from(corner) < vertex_count => corners.push(corner),
                 _ => {
@@ -107,7 +106,7 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
 fn header(words: &mut Words<'_>) -> Result<usize, ReadError> {
     let mut peek = words.clone();
     let Some(word) = peek.next() else { return Err(invalid(None, "the file holds nothing but comments")) };
-    if integer(word).is_ok() {
+    if word.first().is_some_and(u8::is_ascii_digit) && !word.ends_with(b"OFF") {
         return Ok(0);
     }
     let not_off = || {
@@ -143,7 +142,7 @@ fn count(words: &mut Words<'_>, what: &str) -> Result<u64, ReadError> {
     let Some(word) = words.next() else {
         return Err(invalid(Some(words.line), format!("the file ends before the number of {what}")));
     };
-    integer(word).map_err(|why| invalid(Some(words.line), format!("as the number of {what} {why}")))
+    integer(word, words.line, &format!("the number of {what}"))
 }
 
 /// The file or a line ends within vertex `n`, of which `k` coordinates were read.
@@ -158,9 +157,9 @@ fn ends(words: &Words<'_>, stream: bool, k: usize, n: u64, vertex_count: u64) ->
     }
 }
 
-fn integer(word: &[u8]) -> Result<u64, String> {
-    let text = std::str::from_utf8(word).ok();
-    text.and_then(|text| text.parse().ok()).ok_or_else(|| format!("{} is no count or index", show(word)))
+fn integer(word: &[u8], line: u32, expected: &str) -> Result<u64, ReadError> {
+    let integer = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
+    integer.ok_or_else(|| invalid(Some(line), format!("expected {expected}, found {}", show(word))))
 }
 
 /// The words of a text, and the line of the last.

@@ -26,6 +26,9 @@ use edges::Edges;
 /// How many faces, edges or vertices a warning quotes.
 const SHOWN: usize = 5;
 
+/// How many vertices a warning names to be drawn.
+const DRAWN: usize = 1000;
+
 /// How many corners of a face are written out.
 const CORNERS_SHOWN: usize = 12;
 
@@ -48,11 +51,12 @@ impl Polygons {
         Self { positions, ..Self::default() }
     }
 
-    /// Adds a face by the numbers of its corners, from 0, counter-clockwise seen from outside; `line` is the line of the
-    /// file it stands in. A corner that is no vertex makes no face: the number is returned.
+    /// Adds a face by the numbers of its corners, from 0, counter-clockwise seen from outside; `line` is the line of
+    /// the file it stands in. A corner that is no vertex makes no face: the number is returned.
     ///
     /// # Errors
-    /// The first corner that is not there. More corners than a `u32` counts fail too, with the corner at which it happens.
+    /// The first corner that is not there. More corners than a `u32` counts fail too, with the corner at which it
+    /// happens.
     pub fn push(&mut self, corners: impl IntoIterator<Item = u32>, line: Option<u32>) -> Result<(), u32> {
         let start = self.corners.len();
         for corner in corners {
@@ -149,24 +153,25 @@ struct Report {
 }
 
 /// Makes a mesh whose faces are the polygons. Its vertices are those of the input in order, then duplicates; its set
-/// holds them all. The first face that names a vertex gives the start of its ring: after (…, a, v, c, …) the ring of v begins
-/// with c, or where v lies on a border after the gap before the fan of that face.
+/// holds them all. The first face that names a vertex gives the start of its ring: after (…, a, v, c, …) the ring of v
+/// begins with c, or where v lies on a border after the gap before the fan of that face.
 ///
 /// What is no rotation system is mended, and what was done comes back as warnings without spans:
 ///
 /// | input | done |
 /// |---|---|
-/// | a repeated consecutive corner, a face of less than three corners, a duplicate face | dropped |
+/// | a repeated consecutive corner, a face of fewer than three corners, a duplicate face | dropped |
 /// | an isolated vertex | dropped |
-/// | neighbouring faces that run along an edge in the same direction | the fewer faces of the component are turned over |
-/// | an edge with more than two faces (two parallel edges look the same) | faces are paired, within a component first; the others keep their place with duplicates of the vertices |
+/// | neighbouring faces that run along an edge in the same direction | the fewer faces of a component turned over |
+/// | an edge with more than two faces, or two parallel edges | two faces stay together, others get duplicate vertices |
 /// | several fans at a vertex, some closed | a vertex for each closed fan, one for all open ones |
 /// | three or more open fans at a vertex | kept in the order of their first faces, as their cyclic order is not known |
 /// | two faces back to back | kept |
 /// | a surface that is not orientable | refused, with a cycle of faces that proves it |
 ///
-/// With `strict`, what would have to be changed is refused; what is kept still comes with a warning. Cost: linear but for sorting
-/// the edges of each vertex.
+/// Faces at an edge with more than two are paired where they run in opposite directions, those that are connected
+/// elsewhere first. With `strict`, what would have to be changed is refused; what is kept still comes with a warning.
+/// Cost: linear but for sorting the edges of each vertex.
 ///
 /// # Errors
 /// See above, or when stopped.

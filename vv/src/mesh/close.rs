@@ -13,15 +13,15 @@ const DRAWN: usize = 1000;
 
 /// Closes a step. Returns warnings, without spans, that name vertices by their new numbers.
 ///
-/// 1. Vertices that are not in the set are forgotten and the others renumbered densely in order of creation. Entries that
-///    name forgotten vertices become gaps; a warning counts those vertices.
+/// 1. Vertices that are not in the set are forgotten and the others renumbered densely in order of creation. Entries
+///    that name forgotten vertices become gaps; a warning counts those vertices.
 /// 2. On every walk that has a gap at both ends, all corners become gaps: a vertex that was put on a boundary edge
-///    becomes a boundary vertex. Walks that end at a neighbour which does not answer are left as they are, with a warning
-///    that quotes the rings.
+///    becomes a boundary vertex. Walks that end at a neighbour which does not answer are left as they are, with a
+///    warning that quotes the rings.
 /// 3. Positions that are infinite or not a number get a warning.
 ///
-/// None of these changes the set of faces, but for faces that had a forgotten corner. A mesh without gaps costs a scan in order
-/// of memory, one with gaps the walks along its boundary besides.
+/// None of these changes the set of faces, but for faces that had a forgotten corner. A mesh without gaps costs a scan
+/// in order of memory, one with gaps the walks along its boundary besides.
 ///
 /// # Errors
 /// When stopped; drop the mesh then.
@@ -71,7 +71,8 @@ fn forget(mesh: &mut Mesh, stop: &Stop) -> Result<Option<Diagnostic>, Stopped> {
     }
     let (are, their) = if forgotten == 1 { ("is", "its") } else { ("are", "their") };
     let message = format!(
-        "{} that rings of the mesh name {are} in no mesh at the end of the step; gaps took {their} places in the rings of {}",
+        "{} that rings of the mesh name {are} in no mesh at the end of the step; gaps took {their} places in the rings \
+        of {}",
         validate::vertices(forgotten),
         validate::vertices(torn.len())
     );

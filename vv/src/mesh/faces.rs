@@ -1,19 +1,19 @@
 //! Faces as Edmonds' orbits.
 //!
-//! The rule, for rings counter-clockwise: **from u→v go on to v→w, w = prevto u in v**. It walks each polygon counter-clockwise and
-//! keeps it on the left:
+//! The rule, for rings counter-clockwise: **from u→v go on to v→w, w = prevto u in v**. It walks each polygon
+//! counter-clockwise and keeps it on the left:
 //!
 //! ```text
-//!          w                 ring of v, counter-clockwise: … w  u …
-//!         ╱                  coming from u, the neighbour before u is the sharpest left turn
-//!        ╱  face
-//!       v ←────── u
+//!       v ←────── u          ring of v, counter-clockwise: … w u …
+//!        ╲  face             coming from u, the neighbour before u is the sharpest left turn
+//!         ╲
+//!          ↘ w
 //! ```
 //!
 //! The paper's rule, from (u, v) go on to (v, nextto u in v), gives the same polygons read backwards. *Proof.* Call the
 //! paper's step φ(u, v) = (v, next_v u), ours ψ(u, v) = (v, prev_v u), and let r(u, v) = (v, u). Undoing our step,
-//! ψ⁻¹(v, w) = (next_v w, v), so r ψ⁻¹ r (w, v) = r ψ⁻¹(v, w) = r(next_v w, v) = (v, next_v w) = φ(w, v). Hence φ = r ψ⁻¹ r:
-//! the orbits of φ are those of ψ with every edge reversed, in reversed order. ∎
+//! ψ⁻¹(v, w) = (next_v w, v), so r ψ⁻¹ r (w, v) = r ψ⁻¹(v, w) = r(next_v w, v) = (v, next_v w) = φ(w, v). Hence
+//! φ = r ψ⁻¹ r: the orbits of φ are those of ψ with every edge reversed, in reversed order. ∎
 
 use super::twins::{NONE, Twins};
 use super::{Mesh, Vertex};
@@ -61,12 +61,14 @@ impl Faces {
 }
 
 /// The faces of the set of `mesh`: the orbits that meet no gap and no incomplete neighbour, which is one that does not
-/// name the vertex that names it, or stands outside the set. An edge that is a component by itself, `{q}` at p and `{p}`
-/// at q, has one orbit of two corners; it counts, so that V − E + F = 2 holds there too. A vertex without neighbours has none.
+/// name the vertex that names it, or stands outside the set. An edge that is a component by itself, `{q}` at p and
+/// `{p}` at q, has one orbit of two corners; it counts, so that V − E + F = 2 holds there too. A vertex without
+/// neighbours has none.
 ///
 /// The order is that of the vertices' creation: each face begins at its oldest corner, and the faces that begin at one
-/// vertex follow its ring, from the corner of the first face that met the vertex before, else from the start of the ring.
-/// Reading a file starts rings the same way ([`super::build`]), so faces that were written and read come out the same.
+/// vertex follow its ring, from the corner of the first face that met the vertex before, else from the start of the
+/// ring. Reading a file starts rings the same way ([`super::build`]), so faces that were written and read come out the
+/// same.
 ///
 /// Cost: linear, also with vertices of high valence (there O(log valence) per slot).
 ///

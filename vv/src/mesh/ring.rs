@@ -155,21 +155,21 @@ impl Rings {
         if items.contains(&Some(v)) {
             return Err(EditError::OwnNeighbour(v));
         }
-        let kept: Vec<(Option<Vertex>, Vec<Value>)> = if self.properties.is_empty() {
+        let mut kept: Vec<(Vertex, Vec<Value>)> = if self.properties.is_empty() {
             Vec::new()
         } else {
-            let range = self.head(v).range();
             let values = |i| self.properties.iter().filter_map(|p| p.values.get(i)).collect();
-            range.filter(|&i| self.slots[i].is_some()).map(|i| (self.slots[i], values(i))).collect()
+            self.head(v).range().filter_map(|i| Some((self.slots[i]?, values(i)))).collect()
         };
+        kept.sort_unstable_by_key(|&(x, _)| x);
         self.reserve(v, items.len(), 0)?;
         self.set_len(v, items.len());
         let range = self.head(v).range();
         self.slots.edit()[range.clone()].copy_from_slice(items);
         for (k, property) in self.properties.iter_mut().enumerate() {
             for i in range.clone() {
-                let old = kept.iter().find(|(x, _)| x.is_some() && *x == self.slots[i]);
-                let value = old.and_then(|(_, values)| values.get(k).copied());
+                let old = self.slots[i].and_then(|x| kept.binary_search_by_key(&x, |&(y, _)| y).ok());
+                let value = old.and_then(|j| kept[j].1.get(k).copied());
                 property.values.set(i, value.unwrap_or(property.default));
             }
         }

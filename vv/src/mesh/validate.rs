@@ -46,8 +46,8 @@ pub enum Finding {
         /// The vertex.
         vertex: Vertex,
     },
-    /// A ring breaks an invariant: it names a vertex twice or its own, has gaps side by side, or its first gap is not at
-    /// the end. No edit leads there.
+    /// A ring breaks an invariant: it names a vertex twice or its own, has gaps side by side, or its first gap is not
+    /// at the end. No edit leads there.
     Ring {
         /// The vertex whose ring it is.
         vertex: Vertex,
@@ -65,8 +65,8 @@ pub enum Finding {
 /// - every ring keeps its invariants ([`Finding::Ring`]);
 /// - members have neighbours in the set only ([`Finding::Outside`]);
 /// - u ∈ v* if and only if v ∈ u* ([`Finding::OneSided`]);
-/// - a walk that meets a gap meets nothing but gaps ([`Finding::Unclosed`]), so that every orbit is a face or lies along
-///   the boundary;
+/// - a walk that meets a gap meets nothing but gaps ([`Finding::Unclosed`]), so that every orbit is a face or lies
+///   along the boundary;
 /// - positions are finite ([`Finding::NotFinite`]).
 ///
 /// The findings are in this order, each kind in order of creation. Cost: linear, with O(log valence) in long rings.
@@ -224,8 +224,8 @@ pub(super) fn not_finite(mesh: &Mesh) -> impl Iterator<Item = Finding> {
 /// The entries of members that name members which do not name them.
 ///
 /// First asks whether there is any: an entry u→v counts +h(u, v) if u < v, else −h(v, u), for a mixing function h. As
-/// no ring names a vertex twice, the sum is 0 where all pairs answer, and otherwise 0 by a chance of 2⁻⁶⁴. That takes one
-/// pass in order of memory, where looking for each entry's twin jumps about.
+/// no ring names a vertex twice, the sum is 0 where all pairs answer, and otherwise 0 by a chance of 2⁻⁶⁴. That takes
+/// one pass in order of memory, where looking for each entry's twin jumps about.
 pub(super) fn one_sided(mesh: &Mesh, member: &[bool], stop: &Stop) -> Result<Vec<Finding>, Stopped> {
     let is_member = |v: &Vertex| member.get(v.index()).is_some_and(|&m| m);
     let mut sum = 0u64;

@@ -1,8 +1,9 @@
 //! Mesh files: text in, faces and warnings out; round trips; what is refused and where.
 
 use vv::io::{Format, ReadError, ReadOptions, read, write};
+use vv::mesh::Mesh;
 use vv::mesh::faces::faces;
-use vv::stop::Stop;
+use vv::stop::{Stop, Stopped};
 
 use crate::mesh::{face_list, ring_list};
 
@@ -57,17 +58,438 @@ fn check_faces(faces: &str, expected: &str) {
     assert_eq!(outcome(off(faces).as_bytes(), Format::Off, false), expected);
 }
 
+/// Polygons in, rings out.
+#[track_caller]
+fn check_rings(faces: &str, expected: &str) {
+    let (mesh, _) = read(off(faces).as_bytes(), Format::Off, &ReadOptions::default()).unwrap();
+    assert_eq!(ring_list(&mesh), expected);
+}
+
 const TETRAHEDRON: &str = "1 2 3 / 1 3 4 / 1 4 2 / 2 4 3";
 
 #[test]
-fn faces_of_a_tetrahedron() {
-    check_faces(TETRAHEDRON, TETRAHEDRON);
+fn polygons_make_rings_that_start_with_the_first_face_that_names_the_vertex() {
+    check_rings(TETRAHEDRON, "1: 2 3 4, 2: 3 1 4, 3: 1 2 4, 4: 1 3 2");
+    check_rings("2 3 1 / 1 3 4", "1: 2 3 4 -, 2: 3 1 -, 3: 4 1 2 -, 4: 1 3 -");
+    check_rings("1 2 3 4 5 6 7", "1: 2 7 -, 2: 3 1 -, 3: 4 2 -, 4: 5 3 -, 5: 6 4 -, 6: 7 5 -, 7: 1 6 -");
 }
 
 #[test]
-fn obj_and_off_say_the_same() {
-    check_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "1 2 3 4");
-    check_off("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "1 2 3 4");
+fn neighbouring_faces_that_disagree_are_turned_the_fewer() {
+    check_faces(
+        "1 2 3 / 1 4 3 / 1 4 2 / 2 4 3",
+        "1 2 3 / 1 3 4 / 1 4 2 / 2 4 3\n\
+         Warning: 1 face ran round the other way than its neighbours and was turned over\n  \
+           face 2 (line 7): v1 v4 v3",
+    );
+    check_faces(
+        "1 3 2 / 1 4 3 / 1 2 4 / 2 4 3",
+        "1 3 2 / 1 2 4 / 1 4 3 / 2 3 4\n\
+         Warning: 1 face ran round the other way than its neighbours and was turned over\n  \
+           face 4 (line 9): v2 v4 v3",
+    );
+}
+
+#[test]
+fn a_surface_that_is_not_orientable_is_refused_with_the_band_that_proves_it() {
+    check_faces(
+        "1 2 3 / 2 4 3 / 3 4 5 / 4 1 5 / 5 1 2",
+        "error line 10: the surface is not orientable: a band of 5 faces comes back the other way round\n  \
+           each of these meets the next, the last the first; however they are turned, two run along an edge in the same \
+           direction\n  \
+           face 4 (line 10): v4 v1 v5\n  \
+           face 5 (line 11): v5 v1 v2\n  \
+           face 1 (line 7): v1 v2 v3\n  \
+           face 2 (line 8): v2 v4 v3\n  \
+           face 3 (line 9): v3 v4 v5",
+    );
+    check_faces(
+        "1 2 3 1 2 4",
+        "error line 6: the surface is not orientable: face 1 (line 6) meets itself the wrong way round\n  \
+           it runs along one of its edges twice in the same direction\n  \
+           face 1 (line 6): v1 v2 v3 v1 v2 v4",
+    );
+}
+
+#[test]
+fn more_than_two_faces_along_an_edge_get_vertices_of_their_own() {
+    check_faces(
+        "1 2 3 / 2 1 4 / 1 2 5",
+        "1 4 2 / 1 2 3 / 5 6 7\n\
+         Warning: 1 edge has more than two faces; 2 vertices were duplicated so that every face is kept\n  \
+           edge v1–v2: face 1 (line 7), face 2 (line 8), face 3 (line 9)",
+    );
+    // Two tetrahedra that share an edge stay closed.
+    check_faces(
+        "1 2 3 / 1 3 4 / 1 4 2 / 2 4 3 / 1 2 5 / 1 5 6 / 1 6 2 / 2 6 5",
+        "1 2 3 / 1 3 4 / 1 4 2 / 2 4 3 / 5 7 8 / 5 8 6 / 5 6 7 / 6 8 7\n\
+         Warning: 1 edge has more than two faces; 2 vertices were duplicated so that every face is kept\n  \
+           edge v1–v2: face 1 (line 8), face 3 (line 10), face 5 (line 12), face 7 (line 14)",
+    );
+    // A face laid into a tetrahedron does not open it, wherever it stands in the file.
+    check_faces(
+        "2 3 4 / 2 3 1 / 2 1 3 / 4 1 2 / 3 1 4",
+        "1 5 6 / 2 3 4 / 2 4 7 / 2 7 3 / 3 7 4\n\
+         Warning: 3 edges have more than two faces; 3 vertices were duplicated so that every face is kept\n  \
+           edge v1–v2: face 2 (line 7), face 3 (line 8), face 4 (line 9)\n  \
+           edge v1–v3: face 2 (line 7), face 3 (line 8), face 5 (line 10)\n  \
+           edge v2–v3: face 1 (line 6), face 2 (line 7), face 3 (line 8)",
+    );
+    // A fan that goes round twice: however its faces are paired a ring would name a vertex twice, so they come apart.
+    check_faces(
+        "1 2 3 / 4 5 2 4 5 / 4 3 2 / 5 4 2 / 5 2 6",
+        "1 2 3 / 4 5 7 8 9 / 6 16 17 / 10 11 12 / 13 14 15\n\
+         Warning: 3 edges have more than two faces; 11 vertices were duplicated so that every face is kept\n  \
+           edge v2–v4: face 2 (line 9), face 3 (line 10), face 4 (line 11)\n  \
+           edge v2–v5: face 2 (line 9), face 4 (line 11), face 5 (line 12)\n  \
+           edge v4–v5: face 2 (line 9), face 2 (line 9), face 2 (line 9), face 4 (line 11)",
+    );
+}
+
+#[test]
+fn a_vertex_is_split_where_a_closed_fan_meets_others() {
+    check_faces(
+        "1 2 3 / 1 3 4 / 1 4 2 / 2 4 3 / 1 5 6",
+        "1 2 3 / 1 3 4 / 1 4 2 / 2 4 3 / 5 6 7\n\
+         Warning: several fans of faces met in one vertex; 1 vertex was split off so that each has its own\n  \
+           v7 splits off v1",
+    );
+}
+
+#[test]
+fn open_fans_share_their_vertex() {
+    check_faces("1 2 3 / 1 4 5", "1 2 3 / 1 4 5");
+    check_rings("1 2 3 / 1 4 5", "1: 2 3 - 4 5 -, 2: 3 1 -, 3: 1 2 -, 4: 5 1 -, 5: 1 4 -");
+    check_faces(
+        "1 2 3 / 1 4 5 / 1 6 7",
+        "1 2 3 / 1 4 5 / 1 6 7\n\
+         Warning: three or more open fans of faces meet in 1 vertex; their cyclic order is not known, they stand in the \
+           order of their first faces\n  \
+           v1: 3 fans",
+    );
+}
+
+#[test]
+fn what_has_no_area_is_dropped() {
+    check_faces(
+        "1 2 2 3 / 1 3 4 1",
+        "1 2 3 / 1 3 4\n\
+         Warning: 2 faces named a corner twice in succession; the second was dropped\n  \
+           face 1 (line 6): v1 v2 v2 v3\n  \
+           face 2 (line 7): v1 v3 v4 v1",
+    );
+    check_faces(
+        "1 2 3 / 1 1 2 / 3 1 / 2",
+        "1 2 3\n\
+         Warning: 3 faces of fewer than three corners were dropped\n  \
+           face 2 (line 6): v1 v1 v2\n  \
+           face 3 (line 7): v3 v1\n  \
+           face 4 (line 8): v2",
+    );
+    check_faces(
+        "1 2 3 / 2 3 1 / 1 3 4 / 4 1 3",
+        "1 2 3 / 1 3 4\n\
+         Warning: 2 duplicate faces were dropped\n  \
+           face 2 (line 7): v2 v3 v1, as face 1 (line 6)\n  \
+           face 4 (line 9): v4 v1 v3, as face 3 (line 8)",
+    );
+    check_faces(
+        "1 2 4",
+        "1 2 3\n\
+         Warning: 1 vertex is in no face; dropped\n  \
+           v3\n  \
+           the vertices after them were renumbered",
+    );
+}
+
+#[test]
+fn what_is_odd_but_representable_is_kept() {
+    check_faces(
+        "1 2 3 / 1 3 2",
+        "1 2 3 / 1 3 2\n\
+         Warning: two faces lie back to back and make a closed pillow without thickness\n  \
+           face 1 (line 5): v1 v2 v3 and face 2 (line 6)",
+    );
+    check_faces("1 2 3 2", "1 2 3 2"); // a spike
+    check_faces("1 2 3 1 4 5", "1 2 3 1 4 5"); // a face that visits a vertex twice
+}
+
+#[test]
+fn strict_reading_refuses_what_would_be_repaired() {
+    let strict = |faces: &str| outcome(off(faces).as_bytes(), Format::Off, true);
+    assert_eq!(strict(TETRAHEDRON), TETRAHEDRON);
+    assert_eq!(
+        strict("1 2 3 / 2 1 4 / 1 2 5"),
+        "error: the mesh needs repair, which strict reading refuses: \
+           1 edge has more than two faces; 2 vertices were duplicated so that every face is kept\n  \
+           edge v1–v2: face 1 (line 7), face 2 (line 8), face 3 (line 9)"
+    );
+    assert_eq!(
+        strict("1 2 3 / 3 1 2 / 4 5"),
+        "error: the mesh needs repair, which strict reading refuses: 1 face of fewer than three corners was dropped\n  \
+           face 3 (line 9): v4 v5\n  \
+           also: 1 duplicate face was dropped\n  \
+           also: 2 vertices are in no face; dropped"
+    );
+    assert!(strict("1 2 3 / 1 3 2").starts_with("1 2 3 / 1 3 2\nWarning: two faces lie back to back"));
+}
+
+/// Three vertices to begin an OBJ with.
+const THREE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+/// A file of [`THREE`] and `rest`.
+#[track_caller]
+fn check_three(rest: &str, expected: &str) {
+    check_obj(&format!("{THREE}{rest}"), expected);
+}
+
+#[test]
+fn obj_lines_may_end_and_go_on_in_any_way() {
+    check_three("f 1 2 3\n", "1 2 3");
+    check_three("f 1 2 3", "1 2 3");
+    check_obj(&format!("{THREE}f 1 2 3\n").replace('\n', "\r\n"), "1 2 3");
+    check_obj(&format!("{THREE}f 1 2 3\n").replace('\n', "\r"), "1 2 3");
+    check_obj(&format!("\u{feff}{THREE}f 1 2 3\n"), "1 2 3");
+    check_obj("v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n", "1 2 3");
+    check_obj("v 0 \\\r\n0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 \\\r\n3\r\n", "1 2 3");
+    check_three("f 1 2 3 \\", "1 2 3");
+    check_obj("# c\nv\t0 0 0 # a\n  v 1 0 0 # 1 2\n\nv +.1 1. 1e-3\nf  1\t2 3 # x\n", "1 2 3");
+}
+
+#[test]
+fn obj_corners_have_all_forms() {
+    check_three("f 1// 2/1/ 3/1/1\n", "1 2 3");
+    check_three("f 1/1/ 2/9/9 3//-7\n", "1 2 3");
+    check_three("f -3 -2 -1\nv 1 1 0\nf -3 -1 -2\n", "1 2 3 / 2 4 3");
+    check_obj(&format!("f 1 2 3\n{THREE}"), "1 2 3");
+    check_three("v 0 0 1\nf 4 3 2\nf 1 2 3\n", "1 2 3 / 2 4 3");
+}
+
+#[test]
+fn obj_groups_do_not_part_a_mesh() {
+    check_obj(
+        "mtllib a b.mtl\no a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\ng x\nusemtl m\nf 1 2 3\no b\nv 0 0 1\nusemtl k\ns off\n\
+         f 1 3 4\n",
+        "1 2 3 / 1 3 4\nNote: colours, normals, texture coordinates, groups and materials are not read",
+    );
+}
+
+#[test]
+fn obj_colours_and_weights() {
+    let note = "1 2 3\nNote: colours, normals, texture coordinates, groups and materials are not read";
+    check_obj("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0.5 0.5 0.5 1\nf 1 2 3\n", note);
+    let (mesh, _) = read(b"v 2 4 6 2\nv 1 0 0\nv 0 1 0\nf 1 2 3", Format::Obj, &ReadOptions::default()).unwrap();
+    assert_eq!(mesh.positions()[0].to_array(), [1.0, 2.0, 3.0]);
+    check_obj("v 0 0 0 0\n", "error line 1: the weight of the vertex is 0");
+    check_obj(
+        "v 0 0 0 1 1\n",
+        "error line 1: the vertex has 5 numbers; it takes three, four with a weight, six with a colour",
+    );
+}
+
+#[test]
+fn obj_statements_that_are_not_read_are_named() {
+    check_three(
+        "l 1 2 3\nl 1 3\np 1\nf 1 2 3\n",
+        "1 2 3\n\
+         Warning: `l` (a line) on line 4 and 1 more like it ignored: polylines are not read\n\
+         Warning: `p` (points) on line 6 ignored: points are not read",
+    );
+    check_three(
+        "foo 1 2\nbar\nf 1 2 3\n",
+        "1 2 3\nWarning: `foo` on line 4 and 1 more like it ignored: this is no statement of an OBJ file",
+    );
+    check_three(
+        "cstype bspline\ndeg 3\nf 1 2 3\n",
+        "1 2 3\nWarning: a free-form curve or surface on line 4 and 1 more like it ignored: only polygons are read",
+    );
+}
+
+#[test]
+fn obj_errors_name_their_line() {
+    check_obj("v 0 0 0\nv 1 0\n", "error line 2: the vertex has two coordinates, not three");
+    check_obj("v 0 0 0\nv a 0 0\n", "error line 2: `a` is not a number");
+    check_obj("v 0 0 0\nv nan 0 0\nf 1 1 2\n", "error line 2: `nan` is not finite");
+    check_obj("v 0 0 0\nv 0 -inf 0\n", "error line 2: `-inf` is not finite");
+    check_obj("v 0 0 0\nv 1e999 0 0\n", "error line 2: `1e999` is too large for a double");
+    check_obj("v 1e300 0 0 1e-300\n", "error line 1: the coordinates divided by the weight are too large");
+    check_three("v 1.5e", "error line 4: `1.5e` is not a number");
+    check_three("f 1 2 3\nf 1 2", "error line 5: the file ends within a face, after `f 1 2`; it was probably cut off");
+    check_three("f 1 2 4\n", "error line 4: the face has a corner at vertex `4`, but the last vertex is 3");
+    check_three("f 0 1 2\n", "error line 4: the face has a corner at vertex `0`, but vertices are numbered from 1");
+    check_three("f -4 -2 -1\n", "error line 4: the face has a corner at vertex `-4`, but 3 vertices stand before it");
+    check_three("f /1 2 3\n", "error line 4: the face has a corner at vertex `/1`, but it names no vertex");
+    check_three(
+        "f 1 2 9223372036854775807\n",
+        "error line 4: the face has a corner at vertex `9223372036854775807`, but the last vertex is 3",
+    );
+    for word in ["x", "1.0", "1/1/1/1", "99999999999999999999"] {
+        let message = format!("error line 4: `{word}` is no corner of a face, as `7`, `-1` or `7/1/3` would be");
+        check_three(&format!("f 1 2 {word}\n"), &message);
+    }
+    check_obj("f 1 2 3\n", "error line 1: the face has a corner at vertex `1`, but the file has no vertices");
+    check_obj("PK\u{1}\u{2} asd\nasdasd\n", "error: this is no OBJ file: no line begins with `v` or `f`");
+    assert_eq!(outcome(b"v \xff", Format::Obj, false), "error line 1: `\\xff` is not a number");
+}
+
+#[test]
+fn a_file_without_faces_is_an_empty_mesh_a_file_without_words_none() {
+    let empty = "\nWarning: the file has no faces, so the mesh is empty";
+    check_obj("# nothing\n", empty);
+    check_off("OFF\n0 0 0\n", empty);
+    check_obj(" \n", "error: the file is empty");
+    check_off("", "error: the file is empty");
+    check_off("# hello\n", "error: the file holds nothing but comments");
+}
+
+/// OFF of one triangle with this header, these ends of the vertex lines and of the face line.
+fn triangle(header: &str, vertex: &str, face: &str) -> String {
+    format!("{header}\n0 0 0{vertex}\n1 0 0{vertex}\n0 1 0{vertex}\n3 0 1 2{face}")
+}
+
+#[test]
+fn off_headers_and_counts_have_many_forms() {
+    for header in ["OFF\n3 1 3", "OFF 3 1 3", "OFF\n3 1", "3 1 3", "# a\n\nOFF # b\n\n3 1 3 # c\n# d\n"] {
+        check_off(&triangle(header, "", ""), "1 2 3");
+        check_off(&triangle(header, " # e\n", " # f\n\n"), "1 2 3");
+    }
+    check_off("OFF 3 1 3 0 0 0 1 0 0 0 1 0 3 0 1 2", "1 2 3");
+    check_off("OFF\n3 1 3\n0 0 0 1 0 0\n0 1 0 3 0\n1 2", "1 2 3");
+    check_off(&triangle("OFF\n3 1 3", "", "").replace('\n', "\r\n"), "1 2 3");
+}
+
+#[test]
+fn off_colours_normals_and_texture_coordinates_are_passed_over() {
+    let note = "1 2 3\nNote: colours, normals and texture coordinates are not read";
+    check_off(&triangle("COFF\n3 1 3", " 255 0 0 255", " 1 0 0\n"), note);
+    check_off(&triangle("COFF\n3 1 3", " 255 0 0", "\n"), note);
+    check_off(&triangle("NOFF\n3 1 3", " 0 0 1", "\n"), note);
+    check_off(&triangle("STCNOFF\n3 1 3", " 0 0 1 1 1 1 1 0 0", "\n"), note);
+    check_off(&triangle("OFF\n3 1 3", "", " 255 0 0\n"), note);
+    check_off("COFF 3 1 3 0 0 0 1 1 1 1 1 0 0 1 1 1 1 0 1 0 1 1 1 1 3 0 1 2", note);
+}
+
+#[test]
+fn off_that_is_not_read_is_named() {
+    for word in ["4OFF", "nOFF", "4nOFF"] {
+        let message =
+            format!("error line 1: `{word}` has coordinates of other dimension than three; only plain OFF is read");
+        check_off(&format!("{word}\n3 1 3\n"), &message);
+    }
+    check_off("OFF BINARY\n\0\u{3}", "error line 1: binary OFF is not read; save the file as text");
+    check_off(
+        "OFF\n3 1 3\n0 0\n1 0\n0 1\n3 0 1 2\n",
+        "error line 3: vertex 1 has two coordinates; flat OFF is not read, write 0 for the third",
+    );
+    check_off("<html>", "error line 1: this is no OFF file: it begins with `<html>`, not with OFF");
+    assert_eq!(
+        outcome(&[0xff, 0xfe, 0, 10, 32], Format::Off, false),
+        "error line 1: this is no OFF file: it begins with `\\xff\\xfe\\x00`, not with OFF"
+    );
+}
+
+#[test]
+fn off_errors_name_their_line() {
+    check_off("OFF\n", "error line 1: the file ends before the number of vertices");
+    check_off("OFF\n3\n", "error line 2: the file ends before the number of faces");
+    check_off("OFF\nx 1 0\n", "error line 2: expected the number of vertices, found `x`");
+    check_off("OFF\n3 -1 0\n", "error line 2: expected the number of faces, found `-1`");
+    check_off(
+        "OFF\n99999999999999999999 1 0\n",
+        "error line 2: expected the number of vertices, found `99999999999999999999`",
+    );
+    check_off("OFF\n3 1 3\n0 0 0\n1 0 0\n", "error line 4: the file ends after 2 of 3 vertices");
+    check_off("OFF\n3 1 3\n0 0 0\n1 0", "error line 4: the file ends after 1 of 3 vertices");
+    check_off("OFF\n2 1 3\n0 0 0\n1 nan 0\n3 0 1 0", "error line 4: vertex 2: `nan` is not finite");
+    check_off(&triangle("OFF\n3 2 3", "", "\n"), "error line 6: the file ends after 1 of 2 faces");
+    check_off(&triangle("OFF\n3 2 3", "", "\n3 0 1\n"), "error line 7: face 2 announces 3 corners, but there are 2");
+    check_off(
+        &triangle("OFF\n3 2 3", "", "\n3 0 1 3\n"),
+        "error line 7: face 2 has a corner at vertex 3, but they go from 0 to 2",
+    );
+    check_off(
+        &triangle("OFF\n3 2 3", "", "\n3 0 1 -1\n"),
+        "error line 7: expected a vertex of the face, numbered from 0, found `-1`",
+    );
+    check_off(
+        &triangle("OFF\n3 1 3", "", "\nfoo\n"),
+        "1 2 3\nWarning: line 7 and what follows is ignored: all announced faces were read",
+    );
+}
+
+#[test]
+fn off_counts_that_lie_cost_nothing() {
+    check_off(&triangle("OFF\n1000000000 1 0", "", ""), "error line 6: the file ends after 4 of 1000000000 vertices");
+    check_off(
+        &triangle("OFF\n3 18446744073709551615 0", "", ""),
+        "error line 6: the file ends after 1 of 18446744073709551615 faces",
+    );
+    check_off(
+        &triangle("OFF\n3 2 0", "", "\n4000000000 0 1 2"),
+        "error line 7: face 2 announces 4000000000 corners, but there are 3",
+    );
+}
+
+/// What each file under `assets/meshes/bad` is there for: its faces, or how the message begins.
+const BAD: [(&str, &str); 13] = [
+    ("bow-tie.obj", "1 2 3 / 1 4 5"),
+    ("corner-out-of-range.off", "error line 8: face 2 has a corner at vertex 4, but they go from 0 to 3"),
+    ("duplicate-face.obj", "Warning: 1 duplicate face was dropped"),
+    ("flipped-face.obj", "Warning: 1 face ran round the other way than its neighbours and was turned over"),
+    ("heptagon.off", "1 2 3 4 5 6 7"),
+    ("isolated-vertex.obj", "Warning: 1 vertex is in no face; dropped"),
+    ("lying-counts.off", "error line 6: the file ends after 4 of 1000000000 vertices"),
+    ("mobius.obj", "error line 10: the surface is not orientable: a band of 5 faces comes back the other way round"),
+    ("nonmanifold-edge.obj", "Warning: 1 edge has more than two faces; 2 vertices were duplicated"),
+    ("not-finite.obj", "error line 3: `nan` is not finite"),
+    ("pillow.off", "Warning: two faces lie back to back"),
+    ("truncated.obj", "error line 10: the file ends within a face, after `f 2 6`; it was probably cut off"),
+    ("two-closed-fans.obj", "Warning: several fans of faces met in one vertex; 1 vertex was split off"),
+];
+
+#[test]
+fn bad_fixtures_are_what_they_are_there_for() {
+    let folder = std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../assets/meshes/bad");
+    let mut names: Vec<_> =
+        std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, BAD.map(|(name, _)| name));
+    for (name, expected) in BAD {
+        let format = Format::from_extension(name.rsplit('.').next().unwrap()).unwrap();
+        let outcome = outcome(&std::fs::read(folder.join(name)).unwrap(), format, false);
+        let mut found = outcome.lines().filter(|line| line.starts_with(expected));
+        assert!(found.next().is_some(), "{name}: {outcome}");
+    }
+}
+
+#[test]
+fn numbers_are_written_as_short_as_they_read_back() {
+    let obj = "v 0.1 -0 1e300\nv 1e-7 123456789012 5e-324\nv 0.30000000000000004 -1.5 100\nf 1 2 3\n";
+    let (mesh, _) = read(obj.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
+    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj);
+    assert_eq!(String::from_utf8(written).unwrap(), format!("# 3 vertices, 1 faces\n{obj}"));
+}
+
+#[test]
+fn edges_without_faces_are_not_written() {
+    let mut mesh = Mesh::new();
+    let (p, q) = (mesh.create().unwrap(), mesh.create().unwrap());
+    mesh.make(p, &[Some(q)]).unwrap();
+    mesh.make(q, &[Some(p)]).unwrap();
+    mesh.set = [p, q].into_iter().collect();
+    let found = faces(&mesh, &Stop::new()).unwrap();
+    assert_eq!(found.len(), 1);
+    assert_eq!(write(&mesh, &found, Format::Off), b"OFF\n2 0 0\n0 0 0\n0 0 0\n");
+}
+
+#[test]
+fn reading_stops() {
+    let stop = Stop::new();
+    stop.request(Stopped::ByUser);
+    for (format, text) in [(Format::Off, off(TETRAHEDRON)), (Format::Obj, format!("{THREE}f 1 2 3\n"))] {
+        let result = read(text.as_bytes(), format, &ReadOptions { strict: false, stop: stop.clone() });
+        assert_eq!(result.err(), Some(ReadError::Stopped(Stopped::ByUser)));
+    }
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn drop_degenerate(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> 
     if !dropped.is_empty() {
         let message = format!(
             "{} dropped",
-            were(dropped.len(), "face of less than three corners", "faces of less than three corners")
+            were(dropped.len(), "face of fewer than three corners", "faces of fewer than three corners")
         );
         report.repairs.push(quote(warning(message), dropped.len(), |i| dropped[i].clone()));
     }

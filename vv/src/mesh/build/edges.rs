@@ -2,8 +2,9 @@
 //!
 //! The half-edge `h` runs from corner `h` to the next corner of its face.
 
+use super::super::Vertex;
 use super::super::validate::count;
-use super::{BuildError, Polygons, Report, full, quote, vertex_name, warning};
+use super::{BuildError, DRAWN, Polygons, Report, full, quote, vertex_name, warning};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::stop::{Stop, Stopped};
 
@@ -21,7 +22,7 @@ pub(super) struct Edges {
     sorted: Vec<u32>,
     /// End of each edge in `sorted`.
     ends: Vec<u32>,
-    /// Component of each face; faces are connected by edges with two faces.
+    /// Component of each face, the largest first; faces are connected by edges with two faces.
     component: Vec<u32>,
 }
 
@@ -135,6 +136,7 @@ impl Edges {
                 queue.iter().for_each(|&f| turned[f] = !turned[f]);
             }
         }
+        self.rank_components();
         if !pillows.is_empty() {
             let message = match pillows.len() {
                 1 => "two faces lie back to back and make a closed pillow without thickness".to_owned(),
@@ -145,6 +147,19 @@ impl Edges {
             }));
         }
         Ok(self.turn(polygons, &turned, report, stop)?)
+    }
+
+    /// Numbers components, which are named by their first face, by size.
+    fn rank_components(&mut self) {
+        let mut sizes = vec![0u32; self.component.len()];
+        self.component.iter().for_each(|&root| sizes[root as usize] += 1);
+        let mut roots: Vec<u32> = (0..sizes.len() as u32).filter(|&f| sizes[f as usize] > 0).collect();
+        roots.sort_by_key(|&root| std::cmp::Reverse(sizes[root as usize])); // stable
+        let mut rank = sizes;
+        for (i, &root) in roots.iter().enumerate() {
+            rank[root as usize] = i as u32;
+        }
+        self.component.iter_mut().for_each(|component| *component = rank[*component as usize]);
     }
 
     fn turn(
@@ -208,8 +223,9 @@ impl Edges {
         Ok((pairs, crowded))
     }
 
-    /// Pairs half-edges of opposite directions, those of one component first, then what is left; each in order of the
-    /// faces. What is left over then runs in one direction, so that no fan can begin and end with the same edge.
+    /// Pairs half-edges of opposite directions: those of one component first, then what is left, in order of the
+    /// components. As that order is the same at all edges, a face laid into a closed surface does not tear it. What is
+    /// left over runs in one direction, so that no fan can begin and end with the same edge.
     fn pair_crowded(&self, polygons: &Polygons, group: &[u32], join: &mut impl FnMut(u32, u32)) {
         let component = |h: u32| self.component[self.face[h as usize] as usize];
         let forward = |h: u32| {
@@ -226,7 +242,6 @@ impl Edges {
             left[0].extend(&there[paired..]);
             left[1].extend(&back[paired..]);
         }
-        left.iter_mut().for_each(|side| side.sort_unstable());
         left[0].iter().zip(&left[1]).for_each(|(&g, &h)| join(g, h));
     }
 
@@ -261,9 +276,13 @@ impl Edges {
             }
             format!("edge {}–{}: {}", vertex_name(u.min(v)), vertex_name(u.max(v)), faces.join(", "))
         });
-        report.repairs.push(diagnostic.hint(
-            "if two parallel edges between the same two vertices are meant: a rotation system has none, put a vertex on one of them",
-        ));
+        let hint = "if two parallel edges between the same two vertices are meant: a rotation system has none, put a \
+            vertex on one of them";
+        let ends = crowded.iter().flat_map(|group| {
+            let h = group[0];
+            [h, next(polygons, &self.face, h)].map(|h| polygons.corners[h as usize] as usize)
+        });
+        report.repairs.push(diagnostic.hint(hint).about(ends.filter_map(Vertex::from_index).take(DRAWN)));
     }
 }
 
@@ -304,7 +323,9 @@ fn not_orientable(polygons: &Polygons, parent: &[u32], f: usize, g: usize) -> Bu
     let mut error = Diagnostic::new(Severity::Error, None, message);
     error = error.evidence(match cycle.len() {
         1 => "it runs along one of its edges twice in the same direction".to_owned(),
-        _ => "each of these meets the next, the last the first, and however they are turned two run along an edge in the same direction".to_owned(),
+        _ => "each of these meets the next, the last the first; however they are turned, two run along an edge in the \
+            same direction"
+            .to_owned(),
     });
     for &f in cycle.iter().take(CYCLE_SHOWN) {
         error = error.evidence(polygons.quote(f));

@@ -3,7 +3,7 @@
 use super::super::validate::vertices;
 use super::super::{EditError, Mesh, Vertex};
 use super::edges::{Edges, NONE, next, previous};
-use super::{BuildError, Polygons, Report, full, quote, vertex_name, warning};
+use super::{BuildError, DRAWN, Polygons, Report, full, quote, vertex_name, warning};
 use crate::stop::{Stop, Stopped};
 
 /// How often single faces are set apart before all faces along crowded edges are.
@@ -26,8 +26,8 @@ struct Fans {
     of_corner: Vec<u32>,
     /// For each fan the vertex of the mesh: those of the polygons, then duplicates.
     home: Vec<u32>,
-    /// For each duplicate the vertex it duplicates.
-    duplicate_of: Vec<u32>,
+    /// For each duplicate the vertex it duplicates, and whether that is because of a crowded edge.
+    duplicates: Vec<(u32, bool)>,
 }
 
 /// Makes the mesh from oriented polygons.
@@ -43,7 +43,7 @@ pub(super) fn mesh(polygons: &Polygons, edges: &Edges, report: &mut Report, stop
         let fans = Fans::new(polygons, edges, &pairs, &tangled, &apart, stop)?;
         match fans.mesh(polygons, edges, &pairs, stop)? {
             Rings::Mesh(mesh) => {
-                fans.report(polygons, edges, &tangled, &crowded, report);
+                fans.report(polygons, edges, &crowded, report);
                 return Ok(mesh);
             }
             Rings::Parallel(faces) if round < ROUNDS => faces.into_iter().for_each(|f| apart[f as usize] = true),
@@ -106,7 +106,7 @@ impl Fans {
             }
             fans.push(fan);
         }
-        let mut fans = Self { fans, of_corner, home: Vec::new(), duplicate_of: Vec::new() };
+        let mut fans = Self { fans, of_corner, home: Vec::new(), duplicates: Vec::new() };
         fans.settle(edges, polygons.positions.len(), tangled, apart, stop)?;
         Ok(fans)
     }
@@ -126,14 +126,15 @@ impl Fans {
         let mut open_home = vec![NONE; vertices];
         for fan in &self.fans {
             let v = fan.vertex as usize;
-            let shares = !fan.closed && !tangled[v] && !apart[edges.face[fan.start as usize] as usize];
+            let crowded = tangled[v] || apart[edges.face[fan.start as usize] as usize];
+            let shares = !fan.closed && !crowded;
             if shares && open_home[v] != NONE {
                 self.home.push(open_home[v]);
                 continue;
             }
             let home = if taken[v] {
-                self.duplicate_of.push(fan.vertex);
-                (vertices + self.duplicate_of.len() - 1) as u32
+                self.duplicates.push((fan.vertex, crowded));
+                (vertices + self.duplicates.len() - 1) as u32
             } else {
                 fan.vertex
             };
@@ -150,7 +151,7 @@ impl Fans {
         let face = &edges.face;
         let vertex = |corner: u32| Vertex::from_index(self.home[self.of_corner[corner as usize] as usize] as usize);
         let mut mesh = Mesh::new();
-        let duplicates = self.duplicate_of.iter().map(|&v| polygons.positions[v as usize]);
+        let duplicates = self.duplicates.iter().map(|&(v, _)| polygons.positions[v as usize]);
         for position in polygons.positions.iter().copied().chain(duplicates) {
             let v = mesh.create().map_err(|_| full())?;
             mesh.set_position(v, position);
@@ -217,11 +218,11 @@ impl Fans {
         }
     }
 
-    fn report(&self, polygons: &Polygons, edges: &Edges, tangled: &[bool], crowded: &[&[u32]], report: &mut Report) {
+    fn report(&self, polygons: &Polygons, edges: &Edges, crowded: &[&[u32]], report: &mut Report) {
         let n = polygons.positions.len();
         let name = |home: usize| Vertex::from_index(home).map_or_else(String::new, |v| v.to_string());
         let (doubled, pinched): (Vec<usize>, Vec<usize>) =
-            (0..self.duplicate_of.len()).partition(|&i| tangled[self.duplicate_of[i] as usize]);
+            (0..self.duplicates.len()).partition(|&i| self.duplicates[i].1);
         edges.report_crowded(polygons, crowded, doubled.len(), report);
         if !pinched.is_empty() {
             let message = format!(
@@ -233,24 +234,27 @@ impl Fans {
                 }
             );
             let diagnostic = quote(warning(message), pinched.len(), |i| {
-                format!("{} splits off {}", name(n + pinched[i]), vertex_name(self.duplicate_of[pinched[i]]))
+                format!("{} splits off {}", name(n + pinched[i]), vertex_name(self.duplicates[pinched[i]].0))
             });
-            report.repairs.push(diagnostic.about(pinched.iter().filter_map(|&i| Vertex::from_index(n + i)).take(1000)));
+            report
+                .repairs
+                .push(diagnostic.about(pinched.iter().filter_map(|&i| Vertex::from_index(n + i)).take(DRAWN)));
         }
-        let mut open = vec![0u32; n + self.duplicate_of.len()];
+        let mut open = vec![0u32; n + self.duplicates.len()];
         for (fan, &home) in self.fans.iter().zip(&self.home) {
             open[home as usize] += u32::from(!fan.closed);
         }
         let ambiguous: Vec<usize> = (0..open.len()).filter(|&v| open[v] > 2).collect();
         if !ambiguous.is_empty() {
             let message = format!(
-                "three or more open fans of faces meet in {}; their cyclic order is not known, they stand in the order of their first faces",
+                "three or more open fans of faces meet in {}; their cyclic order is not known, they stand in the order \
+                of their first faces",
                 vertices(ambiguous.len())
             );
             let diagnostic = quote(warning(message), ambiguous.len(), |i| {
                 format!("{}: {} fans", name(ambiguous[i]), open[ambiguous[i]])
             });
-            report.remarks.push(diagnostic.about(ambiguous.iter().filter_map(|&v| Vertex::from_index(v)).take(1000)));
+            report.remarks.push(diagnostic.about(ambiguous.iter().filter_map(|&v| Vertex::from_index(v)).take(DRAWN)));
         }
     }
 }
