@@ -3,29 +3,31 @@
 //! [`Session::apply`] carries commands out, [`Session::poll`] takes in what has happened meanwhile. Neither waits for
 //! anything; panels read the rest.
 
+mod files;
+mod generations;
 mod problem;
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
-use std::sync::mpsc::{self, Receiver};
+use std::path::PathBuf;
+use std::sync::mpsc::Receiver;
 use std::sync::{Arc, MutexGuard};
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use vv::diagnostic::Severity;
-use vv::engine::{FailureKind, Limits};
 use vv::ir::Program;
 use vv::mesh::Value;
 
 use crate::camera::Camera;
-use crate::command::{Answer, Command, Panel, ThemeChoice};
+use crate::command::{Command, Panel, ThemeChoice};
 use crate::console::Console;
-use crate::document::{Document, MeshSource, NOWHERE, ProgramText};
+use crate::document::{Document, MeshSource, ProgramText};
 use crate::scene::{Sphere, Style};
 use crate::watch::Watch;
-use crate::worker::{Event, Failed, Frame, Recipe, Report, Request, Ticket, Worker};
-use crate::{files, library};
+use crate::worker::{Frame, Request, Ticket, Worker};
+use crate::{evaluation, library};
 
+use files::{Chooser, is_program};
 pub use problem::{Place, Problem, Problems};
 
 /// How long a text rests before it is compiled.
@@ -35,10 +37,6 @@ const TYPING_PAUSE: Duration = Duration::from_millis(300);
 const GRACE: Duration = Duration::from_millis(250);
 /// Time between two generations when playing.
 const BEAT: Duration = Duration::from_millis(600);
-/// Playing pauses before a generation that would probably have more vertices.
-const PLAY_VERTICES: usize = 1_000_000;
-/// A file dialog that is gone sooner than this was never there.
-const NO_DIALOG: Duration = Duration::from_millis(500);
 /// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(6);
 /// Bytes that kept generations may use.
@@ -114,13 +112,6 @@ struct Running {
     stepping: Option<u64>,
 }
 
-/// A file dialog that is open.
-struct Chooser {
-    purpose: Purpose,
-    since: Instant,
-    result: Receiver<Option<PathBuf>>,
-}
-
 /// The modeler without its window.
 pub struct Session {
     /// What is worked on. Read it; change it by commands.
@@ -170,8 +161,9 @@ impl Session {
         program: Option<PathBuf>,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<Self> {
+        let limits = evaluation::machine_limits();
         let (waker, watcher) = (Arc::clone(&wake), Arc::clone(&wake));
-        let worker = Worker::start(Limits::default(), MEMORY, move || waker())?;
+        let worker = Worker::start(limits, MEMORY.min(limits.max_bytes / 4), move || waker())?;
         let watch = Watch::start(move || watcher())?;
         let mut session = Self {
             document: welcome(mesh.is_none() && program.is_none()),
@@ -433,426 +425,6 @@ impl Session {
     }
 }
 
-/// Files.
-impl Session {
-    fn unless_unsaved(&mut self, command: Command, action: impl FnOnce(&mut Self)) {
-        if self.document.program.is_modified() {
-            self.dialog = Some(Dialog::Unsaved { then: Box::new(command) });
-        } else {
-            action(self);
-        }
-    }
-
-    fn answer_unsaved(&mut self, answer: Answer) {
-        let Some(Dialog::Unsaved { then }) = &self.dialog else { return };
-        let then = (**then).clone();
-        if answer == Answer::Discard {
-            self.dialog = None;
-            // The saved text comes back, so that what follows finds nothing to lose.
-            self.document.program.text = Arc::clone(&self.document.program.saved);
-            self.ask_now();
-            self.apply(then);
-            return;
-        }
-        match self.document.program.path.clone() {
-            Some(path) => {
-                self.dialog = None;
-                self.save_to(&path);
-                if !self.document.program.is_modified() {
-                    self.apply(then);
-                }
-            }
-            // The question stays until the text has a file.
-            None => self.choose(Purpose::SaveProgram),
-        }
-    }
-
-    fn open_program(&mut self, path: &Path) {
-        match files::read_program(path) {
-            Ok(text) => self.set_program(ProgramText::of_file(path, text)),
-            Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
-        }
-    }
-
-    fn set_program(&mut self, program: ProgramText) {
-        self.document.program = program;
-        self.document.rule = None;
-        self.document.params.clear();
-        self.included.clear();
-        self.text_on_disk = None;
-        self.reveal = Some(0..0);
-        self.fit = true;
-        self.watch_files();
-        self.ask_now();
-    }
-
-    fn use_mesh(&mut self, source: MeshSource) {
-        if matches!(source, MeshSource::File(_)) {
-            self.document.generation = 0; // who knows how large it is
-        }
-        self.playing = None;
-        self.document.mesh = source;
-        self.mesh_revision += 1;
-        self.fit = true;
-        self.watch_files();
-        self.ask_now();
-    }
-
-    fn save_to(&mut self, path: &Path) {
-        let text = Arc::clone(&self.document.program.text);
-        match files::write(path, text.as_bytes()) {
-            Ok(()) => {
-                let program = &mut self.document.program;
-                let moved = program.path.as_deref() != Some(path);
-                program.path = Some(path.to_owned());
-                program.name = crate::document::file_name(path);
-                program.saved = text;
-                self.text_on_disk = None;
-                if moved {
-                    self.watch_files();
-                    self.ask_now(); // includes are looked for elsewhere now
-                }
-                let name = self.document.program.name.clone();
-                self.say(Severity::Note, format!("saved {name}"));
-            }
-            Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
-        }
-    }
-
-    fn export_to(&mut self, path: PathBuf) {
-        let Some(frame) = self.frame.clone() else { return };
-        let format = path.extension().and_then(|e| vv::io::Format::from_extension(&e.to_string_lossy()));
-        let Some(format) = format else {
-            self.say(Severity::Error, "the name of a mesh ends in .obj or .off");
-            return;
-        };
-        self.in_background(move || {
-            let bytes = vv::io::write(&frame.mesh, &frame.faces, format);
-            match files::write(&path, &bytes) {
-                Ok(()) => Ok(format!("saved {}", path.display())),
-                Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
-            }
-        });
-    }
-
-    fn in_background(&mut self, work: impl FnOnce() -> Result<String, String> + Send + 'static) {
-        let (sender, receiver) = mpsc::channel();
-        let wake = Arc::clone(&self.wake);
-        std::thread::spawn(move || {
-            let _ = sender.send(work());
-            wake();
-        });
-        self.background.push(receiver);
-    }
-
-    fn take_background(&mut self) {
-        let mut said = Vec::new();
-        self.background.retain(|receiver| match receiver.try_recv() {
-            Ok(result) => {
-                said.push(result);
-                false
-            }
-            Err(mpsc::TryRecvError::Empty) => true,
-            Err(mpsc::TryRecvError::Disconnected) => false,
-        });
-        for result in said {
-            match result {
-                Ok(text) => self.say(Severity::Note, text),
-                Err(text) => self.say(Severity::Error, text),
-            }
-        }
-    }
-
-    fn choose(&mut self, purpose: Purpose) {
-        if self.chooser.is_some() {
-            return;
-        }
-        let program = &self.document.program;
-        let mut dialog = rfd::AsyncFileDialog::new();
-        let folder = match (&self.document.mesh, purpose) {
-            (MeshSource::File(path), Purpose::OpenMesh | Purpose::ExportMesh) => path.parent(),
-            _ => program.path.as_deref().and_then(Path::parent),
-        };
-        if let Some(folder) = folder.filter(|f| f.is_absolute()) {
-            dialog = dialog.set_directory(folder);
-        }
-        dialog = match purpose {
-            Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
-            Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &["obj", "off"]),
-        };
-        dialog = match purpose {
-            Purpose::SaveProgram => dialog.set_file_name(&program.name),
-            Purpose::ExportMesh => dialog.set_file_name("mesh.obj"),
-            Purpose::OpenProgram | Purpose::OpenMesh => dialog,
-        };
-        let (sender, result) = mpsc::channel();
-        let wake = Arc::clone(&self.wake);
-        std::thread::spawn(move || {
-            let chosen = pollster::block_on(async {
-                match purpose {
-                    Purpose::OpenProgram | Purpose::OpenMesh => dialog.pick_file().await,
-                    Purpose::SaveProgram | Purpose::ExportMesh => dialog.save_file().await,
-                }
-            });
-            let _ = sender.send(chosen.map(|file| file.path().to_owned()));
-            wake();
-        });
-        self.chooser = Some(Chooser { purpose, since: Instant::now(), result });
-    }
-
-    fn take_choice(&mut self) {
-        let Some(chooser) = &self.chooser else { return };
-        let choice = match chooser.result.try_recv() {
-            Ok(choice) => choice,
-            Err(mpsc::TryRecvError::Empty) => return,
-            Err(mpsc::TryRecvError::Disconnected) => None,
-        };
-        let (purpose, at_once) = (chooser.purpose, chooser.since.elapsed() < NO_DIALOG);
-        self.chooser = None;
-        match choice {
-            Some(path) => self.chosen(purpose, path),
-            None if at_once => {
-                let path = match purpose {
-                    Purpose::SaveProgram => self.document.program.name.clone(),
-                    Purpose::ExportMesh => "mesh.obj".to_owned(),
-                    Purpose::OpenProgram | Purpose::OpenMesh => String::new(),
-                };
-                self.dialog = Some(Dialog::TypePath { purpose, path });
-            }
-            None => {}
-        }
-    }
-
-    /// Does with a path what it was chosen for.
-    pub fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
-        let then = match self.dialog.take() {
-            Some(Dialog::Unsaved { then }) => Some(*then),
-            _ => None,
-        };
-        match purpose {
-            Purpose::OpenProgram => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_program(&path)),
-            Purpose::OpenMesh => self.use_mesh(MeshSource::File(path)),
-            Purpose::SaveProgram => {
-                self.save_to(&with_extension(path, "vv"));
-                if let Some(then) = then.filter(|_| !self.document.program.is_modified()) {
-                    self.apply(then);
-                }
-            }
-            Purpose::ExportMesh => self.export_to(with_extension(path, "obj")),
-        }
-    }
-
-    fn watch_files(&mut self) {
-        let mut files = self.included.clone();
-        files.extend(self.document.program.path.clone());
-        if let MeshSource::File(path) = &self.document.mesh {
-            files.insert(path.clone());
-        }
-        self.watch.set_files(files.into_iter().filter(|path| !path.starts_with(NOWHERE)));
-    }
-
-    fn take_change(&mut self, path: &Path) {
-        if matches!(&self.document.mesh, MeshSource::File(mesh) if mesh == path) {
-            self.mesh_revision += 1;
-            self.ask_now();
-        }
-        if self.document.program.path.as_deref() != Some(path) {
-            if self.included.contains(path) {
-                self.includes_revision += 1;
-                self.ask_now();
-            }
-            return;
-        }
-        let Ok(text) = files::read_program(path) else { return };
-        let text: Arc<str> = text.into();
-        let program = &mut self.document.program;
-        if text == program.text {
-            program.saved = text;
-            self.text_on_disk = None;
-        } else if text == program.saved {
-            // What we know already, for instance because we have just written it.
-            self.text_on_disk = None;
-        } else if program.is_modified() {
-            self.text_on_disk = Some(text);
-        } else {
-            program.saved = Arc::clone(&text);
-            program.text = text;
-            self.ask_now();
-        }
-    }
-}
-
-/// Generations.
-impl Session {
-    fn go_to(&mut self, generation: u64) {
-        self.document.generation = generation;
-        self.ask_now();
-    }
-
-    fn pause_and_go_to(&mut self, generation: u64) {
-        self.playing = None;
-        self.go_to(generation);
-    }
-
-    fn stop(&mut self) {
-        self.playing = None;
-        let Some(running) = self.running.take() else { return };
-        self.due = None;
-        let shown = self.frame.as_ref().map(|f| &f.request);
-        match shown {
-            // A step was stopped: what is shown is a good result, of the generation before.
-            Some(request) if *request.recipe == *running.request.recipe => {
-                self.document.generation = request.generation;
-                self.stale = None;
-            }
-            _ => self.stale = Some(Stale::Stopped),
-        }
-        self.say(Severity::Note, "stopped");
-    }
-
-    fn play(&mut self) {
-        let Some(last) = self.playing else { return };
-        if self.is_busy() || last.elapsed() < BEAT {
-            return;
-        }
-        if self.stale.is_some() || !self.can_step() {
-            self.playing = None;
-            return;
-        }
-        let generation = self.document.generation;
-        let shown = self.frame.as_ref().map_or(0, |f| f.statistics.vertices);
-        if self.growth() * shown as f64 > PLAY_VERTICES as f64 {
-            self.playing = None;
-            self.say(
-                Severity::Note,
-                "paused: the next generation would have more than a million vertices; Step goes on",
-            );
-            return;
-        }
-        self.playing = Some(Instant::now());
-        self.go_to(generation.saturating_add(1));
-    }
-
-    /// By how much a generation is larger than the one before, from generation 0 to the one shown.
-    fn growth(&self) -> f64 {
-        let Some(frame) = &self.frame else { return 1.0 };
-        let first = frame.control_vertices.max(1) as f64;
-        (frame.statistics.vertices as f64 / first).powf(1.0 / frame.request.generation.max(1) as f64)
-    }
-
-    fn ask_now(&mut self) {
-        self.ask_after(Duration::ZERO);
-    }
-
-    fn ask_after(&mut self, pause: Duration) {
-        self.due = Some(Instant::now() + pause);
-    }
-
-    /// What is wanted.
-    fn request(&self) -> Request {
-        let document = &self.document;
-        let recipe = Recipe {
-            path: document.program.path_or_name(),
-            text: Arc::clone(&document.program.text),
-            includes_revision: self.includes_revision,
-            mesh: document.mesh.clone(),
-            mesh_revision: self.mesh_revision,
-            rule: document.rule.clone(),
-            params: document.params.clone(),
-        };
-        Request { recipe: Arc::new(recipe), generation: document.generation }
-    }
-
-    /// Hands the wish to the worker once it is due and what runs may be dropped for it.
-    fn ask(&mut self) {
-        if self.due.is_none_or(|due| Instant::now() < due) {
-            return;
-        }
-        let request = self.request();
-        if let Some(running) = &self.running {
-            let same = *running.request.recipe == *request.recipe;
-            if same && running.request.generation == request.generation {
-                self.due = None;
-                return;
-            }
-            // A generation on the way to the one that is wanted now is no work lost.
-            if same && running.request.generation < request.generation {
-                return;
-            }
-            if running.since.elapsed() < GRACE {
-                return;
-            }
-        }
-        self.due = None;
-        self.running = None; // drops the ticket: the old work stops
-        let ticket = self.worker.submit(request.clone());
-        self.running = Some(Running { ticket, request, since: Instant::now(), stepping: None });
-    }
-
-    fn take_report(&mut self, report: Report) {
-        let Some(running) = &mut self.running else { return };
-        if !running.ticket.issued(&report) {
-            return;
-        }
-        let request = running.request.clone();
-        match report.event {
-            Event::Compiled { compilation, files } => {
-                self.problems.compiled(&compilation);
-                if let Some(program) = &compilation.program {
-                    self.program = Some(Arc::clone(program));
-                    self.included.clear();
-                }
-                // Files of the last program that compiled stay watched: the error may be that one of them is gone.
-                self.included.extend(files);
-                self.watch_files();
-            }
-            Event::MeshRead { diagnostics } => self.problems.mesh_read(&request.recipe.mesh.name(), diagnostics),
-            Event::Stepping(generation) => running.stepping = Some(generation),
-            Event::Preview(frame) => self.frame = Some(frame),
-            Event::Finished(frame) => {
-                self.problems.ran(&frame.warnings, &Arc::default());
-                self.frame = Some(frame);
-                self.stale = None;
-                self.running = None;
-            }
-            Event::Failed(failed) => {
-                self.running = None;
-                self.failed(failed);
-            }
-        }
-    }
-
-    fn failed(&mut self, failed: Failed) {
-        self.playing = None;
-        if let FailureKind::Stopped(_) = failed.kind {
-            self.stale = Some(Stale::Stopped);
-            return;
-        }
-        self.problems.ran(failed.diagnostic.as_deref().map_or(&[], std::slice::from_ref), &failed.sources);
-        let message = match self.problems.first_error() {
-            Some(problem) => match problem.place.as_ref().filter(|place| place.own) {
-                Some(place) => format!("line {}: {}", place.start.line, problem.diagnostic.message),
-                None => problem.diagnostic.message.clone(),
-            },
-            None => "the program failed".to_owned(),
-        };
-        self.stale = Some(Stale::Failed(message));
-    }
-
-    fn fix(&mut self, hint: &vv::diagnostic::Hint) {
-        let Some((span, replacement)) = &hint.edit else { return };
-        let text = &self.document.program.text;
-        let (start, end) = (span.start as usize, span.end as usize);
-        // The text may have changed since the diagnostic was made.
-        if span.file != vv::source::FileId::MAIN || text.get(start..end).is_none() {
-            return;
-        }
-        let text = format!("{}{replacement}{}", &text[..start], &text[end..]);
-        self.document.program.text = text.into();
-        self.ask_now();
-    }
-}
-
 /// What the window opens with.
 fn welcome(refined: bool) -> Document {
     let program = ["loop.vv", "paper-loop.vv"].iter().find_map(|name| library::program(name));
@@ -866,13 +438,4 @@ fn welcome(refined: bool) -> Document {
         style: Style { control: true, ..Style::default() },
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something
     }
-}
-
-/// Whether a path is that of a program.
-fn is_program(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("vv"))
-}
-
-fn with_extension(path: PathBuf, extension: &str) -> PathBuf {
-    if path.extension().is_some() { path } else { path.with_extension(extension) }
 }

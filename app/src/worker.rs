@@ -9,30 +9,30 @@
 //! A [`Ticket`] stands for a request that somebody still wants: dropping it stops the work. Generations are kept, so that
 //! going back or one further computes nothing twice.
 
-use std::collections::{BTreeMap, VecDeque};
-use std::panic::AssertUnwindSafe;
+mod bench;
+mod history;
+mod printer;
+
+use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
 
 use vv::Compilation;
-use vv::diagnostic::{Diagnostic, Severity};
-use vv::engine::{Failure, FailureKind, Limits, Output, OutputClosed, Settings};
-use vv::io::{Format, ReadError, ReadOptions};
-use vv::ir::Program;
-use vv::mesh::faces::{Faces, faces};
-use vv::mesh::statistics::{Statistics, statistics};
+use vv::diagnostic::Diagnostic;
+use vv::engine::{FailureKind, Limits};
+use vv::mesh::faces::Faces;
+use vv::mesh::statistics::Statistics;
 use vv::mesh::{Mesh, Value};
 use vv::source::Sources;
 use vv::stop::{Stop, Stopped};
 
-use crate::console::{self, Console};
+use crate::console::Console;
 use crate::document::MeshSource;
-use crate::evaluation::{self, Generation};
 use crate::scene::Scene;
-use crate::{files, library};
+
+use bench::Bench;
 
 /// What decides every generation: two equal recipes give the same meshes.
 #[derive(Debug, Clone, PartialEq)]
@@ -180,6 +180,8 @@ struct Shared {
 #[derive(Default)]
 struct Slot {
     request: Option<(u64, Request, Stop)>,
+    /// Stops what is being worked on.
+    current: Option<Stop>,
     closed: bool,
 }
 
@@ -196,17 +198,7 @@ impl Worker {
     pub fn start(limits: Limits, memory: usize, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared { slot: Mutex::default(), filled: Condvar::new(), console: Mutex::default() });
         let (sender, reports) = mpsc::channel();
-        let bench = Bench {
-            shared: Arc::clone(&shared),
-            reports: sender,
-            wake: Box::new(wake),
-            limits,
-            memory,
-            compiled: None,
-            input: None,
-            history: None,
-            shown_mesh: None,
-        };
+        let bench = Bench::new(Arc::clone(&shared), sender, Box::new(wake), limits, memory);
         let thread = std::thread::Builder::new()
             .name("evaluation".to_owned())
             .stack_size(8 << 20)
@@ -238,7 +230,12 @@ impl Worker {
 
 impl Drop for Worker {
     fn drop(&mut self) {
-        lock(&self.shared.slot).closed = true;
+        let mut slot = lock(&self.shared.slot);
+        slot.closed = true;
+        if let Some(stop) = &slot.current {
+            stop.request(Stopped::ByUser);
+        }
+        drop(slot);
         self.shared.filled.notify_one();
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
@@ -246,396 +243,156 @@ impl Drop for Worker {
     }
 }
 
-/// The state of the worker's thread.
-struct Bench {
-    shared: Arc<Shared>,
-    reports: Sender<Report>,
-    wake: Box<dyn Fn() + Send>,
-    limits: Limits,
-    /// Bytes that kept generations may use.
-    memory: usize,
-    compiled: Option<Compiled>,
-    input: Option<Input>,
-    history: Option<History>,
-    /// Source and revision of the mesh that the last frame came from.
-    shown_mesh: Option<(MeshSource, u64)>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::{Duration, Instant};
 
-struct Compiled {
-    path: PathBuf,
-    text: Arc<str>,
-    revision: u64,
-    compilation: Compilation,
-    files: Vec<PathBuf>,
-}
+    const ENDLESS: &str = "void f(mesh& S) { print(\"began\"); while (true) { } }";
 
-struct Input {
-    source: MeshSource,
-    revision: u64,
-    mesh: Option<Mesh>,
-    diagnostics: Vec<Diagnostic>,
-}
-
-/// The generations of one recipe.
-struct History {
-    recipe: Arc<Recipe>,
-    generations: BTreeMap<u64, Kept>,
-    control: Option<Faces>,
-}
-
-struct Kept {
-    generation: Generation,
-    frame: Option<Arc<Frame>>,
-}
-
-impl Kept {
-    /// The picture takes about as much again as the mesh.
-    fn bytes(&self) -> usize {
-        self.generation.mesh.bytes() * if self.frame.is_some() { 3 } else { 1 }
+    fn worker(memory: usize) -> Worker {
+        Worker::start(Limits::default(), memory, || {}).unwrap()
     }
-}
 
-impl Bench {
-    fn work(mut self) {
+    fn request(text: &str, generation: u64) -> Request {
+        let recipe = Recipe {
+            path: "test.vv".into(),
+            text: text.into(),
+            includes_revision: 0,
+            mesh: MeshSource::BuiltIn("octahedron.obj".to_owned()),
+            mesh_revision: 0,
+            rule: None,
+            params: BTreeMap::new(),
+        };
+        Request { recipe: Arc::new(recipe), generation }
+    }
+
+    /// The next report of a ticket that satisfies `wanted`. The time allowed is for slow machines only.
+    #[track_caller]
+    fn wait_for(worker: &Worker, ticket: &Ticket, wanted: impl Fn(&Event) -> bool) -> Event {
+        let began = Instant::now();
         loop {
-            let (ticket, request, stop) = {
-                let mut slot = lock(&self.shared.slot);
-                loop {
-                    if slot.closed {
-                        return;
-                    }
-                    match slot.request.take() {
-                        Some(request) => break request,
-                        None => slot = self.shared.filled.wait(slot).unwrap_or_else(PoisonError::into_inner),
-                    }
-                }
-            };
-            let generation = request.generation;
-            let outcome = std::panic::catch_unwind(AssertUnwindSafe(|| self.serve(ticket, &request, &stop)));
-            let event = match outcome {
-                Ok(Ok(frame)) => Event::Finished(frame),
-                Ok(Err(failed)) => Event::Failed(failed),
-                Err(_) => {
-                    // Whatever was being changed is suspect now.
-                    (self.compiled, self.input, self.history) = (None, None, None);
-                    let message = "vv itself failed here, which is a mistake in vv; the window goes on";
-                    Event::Failed(Failed {
-                        kind: FailureKind::Program,
-                        diagnostic: Some(Box::new(Diagnostic::new(Severity::Error, None, message))),
-                        sources: Arc::default(),
-                        generation,
-                    })
-                }
-            };
-            self.report(ticket, event);
-        }
-    }
-
-    fn report(&self, ticket: u64, event: Event) {
-        // Nobody listens any more: the window closes.
-        let _ = self.reports.send(Report { ticket, event });
-        (self.wake)();
-    }
-
-    fn serve(&mut self, ticket: u64, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Failed> {
-        let recipe = &request.recipe;
-        self.compile(recipe);
-        self.read(recipe, stop)?;
-        let (Some(compiled), Some(input)) = (&self.compiled, &self.input) else {
-            return Err(Failed::said_before(FailureKind::Program, request.generation));
-        };
-        let (compilation, files) = (compiled.compilation.clone(), compiled.files.clone());
-        let program = compilation.program.clone();
-        self.report(ticket, Event::Compiled { compilation, files });
-        self.report(ticket, Event::MeshRead { diagnostics: input.diagnostics.clone() });
-        let Some(mesh) = input.mesh.clone() else {
-            return Err(Failed::said_before(FailureKind::Program, 0));
-        };
-        let mesh_key = Some((recipe.mesh.clone(), recipe.mesh_revision));
-        let Some(program) = program else {
-            if self.shown_mesh != mesh_key {
-                let request = Request { recipe: Arc::clone(recipe), generation: 0 };
-                let first = Generation { mesh, ..Generation::default() };
-                let stopped = |_| Failed::said_before(FailureKind::Stopped(Stopped::ByUser), 0);
-                let frame = frame(&request, &first, None, stop).map_err(stopped)?;
-                self.report(ticket, Event::Preview(Arc::new(frame)));
-                self.shown_mesh = mesh_key;
+            match worker.report() {
+                Some(report) if ticket.issued(&report) && wanted(&report.event) => return report.event,
+                Some(_) => {}
+                None => std::thread::sleep(Duration::from_millis(2)),
             }
-            return Err(Failed::said_before(FailureKind::Program, request.generation));
+            assert!(began.elapsed() < Duration::from_secs(30), "waited in vain");
+        }
+    }
+
+    #[track_caller]
+    fn finish(worker: &mut Worker, request: Request) -> Result<Arc<Frame>, Failed> {
+        let ticket = worker.submit(request);
+        let is_last = |e: &Event| matches!(e, Event::Finished(_) | Event::Failed(_));
+        match wait_for(worker, &ticket, is_last) {
+            Event::Finished(frame) => Ok(frame),
+            Event::Failed(failed) => Err(failed),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_request_gives_the_generation_asked_for() {
+        let mut worker = worker(1 << 30);
+        let frame = finish(&mut worker, request("void f(mesh& S) { forall v in S v$pos *= 2.0; }", 3)).unwrap();
+        assert_eq!(frame.request.generation, 3);
+        assert_eq!(frame.mesh.positions()[0].length(), 8.0);
+        assert_eq!((frame.statistics.faces, frame.control_vertices), (8, 6));
+    }
+
+    #[test]
+    fn dropping_a_ticket_stops_its_work_and_the_next_request_is_served() {
+        let mut worker = worker(1 << 30);
+        let endless = worker.submit(request(ENDLESS, 1));
+        wait_for(&worker, &endless, |e| matches!(e, Event::Stepping(1)));
+        let began = Instant::now();
+        drop(endless);
+        finish(&mut worker, request("void f(mesh& S) { }", 1)).unwrap();
+        assert!(began.elapsed() < Duration::from_secs(10));
+    }
+
+    #[test]
+    fn the_newest_request_wins() {
+        let mut worker = worker(1 << 30);
+        let endless = worker.submit(request(ENDLESS, 1));
+        wait_for(&worker, &endless, |e| matches!(e, Event::Stepping(1)));
+        // Neither has begun when the other comes.
+        let forgotten = worker.submit(request(ENDLESS, 1));
+        let newest = worker.submit(request("void f(mesh& S) { }", 2));
+        drop(endless);
+        wait_for(&worker, &newest, |e| matches!(e, Event::Finished(_)));
+        while let Some(report) = worker.report() {
+            assert!(!forgotten.issued(&report), "{report:?}");
+        }
+    }
+
+    #[test]
+    fn dropping_the_worker_ends_what_it_does() {
+        let mut worker = worker(1 << 30);
+        let endless = worker.submit(request(ENDLESS, 1));
+        wait_for(&worker, &endless, |e| matches!(e, Event::Stepping(1)));
+        drop(worker); // returns
+        drop(endless);
+    }
+
+    #[test]
+    fn generations_that_are_kept_are_not_computed_again() {
+        let mut worker = worker(1 << 30);
+        let text = "void f(mesh& S) { print(\"once\"); }";
+        let first = finish(&mut worker, request(text, 1)).unwrap();
+        finish(&mut worker, request(text, 2)).unwrap();
+        let again = finish(&mut worker, request(text, 1)).unwrap();
+        assert!(Arc::ptr_eq(&first, &again));
+        assert_eq!(worker.console().len(9), 2);
+    }
+
+    #[test]
+    fn generations_that_no_memory_was_left_for_come_out_the_same() {
+        let text = "void f(mesh& S) { forall v in S v$pos *= 1.5 + random(); }";
+        let (mut roomy, mut tight) = (worker(1 << 30), worker(0));
+        for generation in [4, 2, 3, 0, 4] {
+            let a = finish(&mut roomy, request(text, generation)).unwrap();
+            let b = finish(&mut tight, request(text, generation)).unwrap();
+            assert_eq!(a.mesh.positions(), b.mesh.positions(), "generation {generation}");
+        }
+    }
+
+    #[test]
+    fn a_failed_step_leaves_the_generations_before_it() {
+        let mut worker = worker(1 << 30);
+        let text = "mesh { int n = 3; };\nvoid f(mesh& S) { S$n -= 1; print(1 / S$n); }";
+        let failed = finish(&mut worker, request(text, 9)).unwrap_err();
+        assert_eq!((failed.kind, failed.generation), (FailureKind::Program, 3));
+        assert!(failed.diagnostic.is_some());
+        finish(&mut worker, request(text, 2)).unwrap();
+        assert_eq!(worker.console().lines(2, 0..9), ["0", "1"]);
+    }
+
+    #[test]
+    fn endless_printing_fills_no_memory() {
+        let mut worker = worker(1 << 30);
+        let text = "void f(mesh& S) { while (true) print(\"again and again\"); }";
+        let ticket = worker.submit(request(text, 1));
+        wait_for(&worker, &ticket, |e| matches!(e, Event::Stepping(1)));
+        let began = Instant::now();
+        while worker.console().dropped() == 0 {
+            assert!(began.elapsed() < Duration::from_secs(30));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert!(worker.console().len(1) <= crate::console::MAX_LINES);
+    }
+
+    #[test]
+    fn parameters_that_do_not_fit_are_left_at_their_defaults() {
+        let text = "param double w = 0.5 in [0, 1];\nvoid f(mesh& S) { forall v in S v$pos *= w; }";
+        let size = |value| {
+            let mut request = request(text, 1);
+            Arc::make_mut(&mut request.recipe).params.insert("w".to_owned(), value);
+            finish(&mut worker(1 << 30), request).unwrap().mesh.positions()[0].length()
         };
-        let frame = self.generation(ticket, request, &program, mesh, stop)?;
-        self.shown_mesh = mesh_key;
-        Ok(frame)
-    }
-
-    fn compile(&mut self, recipe: &Recipe) {
-        let revision = recipe.includes_revision;
-        if let Some(c) = &self.compiled
-            && c.path == recipe.path
-            && c.text == recipe.text
-            && c.revision == revision
-        {
-            return;
-        }
-        let (compilation, files) = files::compile(&recipe.path, &recipe.text);
-        let (path, text) = (recipe.path.clone(), Arc::clone(&recipe.text));
-        self.compiled = Some(Compiled { path, text, revision, compilation, files });
-    }
-
-    fn read(&mut self, recipe: &Recipe, stop: &Stop) -> Result<(), Failed> {
-        let revision = recipe.mesh_revision;
-        if self.input.as_ref().is_some_and(|i| i.source == recipe.mesh && i.revision == revision) {
-            return Ok(());
-        }
-        let options = ReadOptions { stop: stop.clone(), ..ReadOptions::default() };
-        let result = match &recipe.mesh {
-            MeshSource::Empty => Ok((Mesh::new(), Vec::new())),
-            MeshSource::File(path) => files::read_mesh(path, &options).map_err(|e| e.diagnostic),
-            MeshSource::BuiltIn(name) => shipped_mesh(name, &options),
-        };
-        if let Err(stopped) = stop.check() {
-            return Err(Failed::said_before(FailureKind::Stopped(stopped), 0));
-        }
-        let source = recipe.mesh.clone();
-        self.input = Some(match result {
-            Ok((mesh, diagnostics)) => Input { source, revision, mesh: Some(mesh), diagnostics },
-            Err(error) => Input { source, revision, mesh: None, diagnostics: vec![*error] },
-        });
-        Ok(())
-    }
-
-    fn generation(
-        &mut self,
-        ticket: u64,
-        request: &Request,
-        program: &Arc<Program>,
-        input: Mesh,
-        stop: &Stop,
-    ) -> Result<Arc<Frame>, Failed> {
-        let recipe = &request.recipe;
-        let mut history = match self.history.take() {
-            Some(history) if history.recipe == *recipe => history,
-            _ => {
-                lock(&self.shared.console).clear();
-                History { recipe: Arc::clone(recipe), generations: BTreeMap::new(), control: None }
-            }
-        };
-        let result = self.advance_to(ticket, request, program, input, stop, &mut history);
-        // A step that failed leaves the generations before it as they were.
-        self.history = Some(history);
-        result
-    }
-
-    fn advance_to(
-        &self,
-        ticket: u64,
-        request: &Request,
-        program: &Arc<Program>,
-        input: Mesh,
-        stop: &Stop,
-        history: &mut History,
-    ) -> Result<Arc<Frame>, Failed> {
-        let recipe = &request.recipe;
-        let settings = Settings {
-            params: params(program, &recipe.params),
-            limits: self.limits,
-            stop: stop.clone(),
-            ..Settings::default()
-        };
-        let nearest = history.generations.range(..=request.generation).next_back().map(|(&g, _)| g);
-        for generation in nearest.map_or(0, |g| g + 1)..=request.generation {
-            let failed = |failure: Failure| Failed {
-                kind: failure.kind,
-                diagnostic: Some(failure.diagnostic),
-                sources: Arc::clone(&program.sources),
-                generation,
-            };
-            self.report(ticket, Event::Stepping(generation));
-            let mut printer = Printer::new(self, generation);
-            lock(&self.shared.console).begin(generation);
-            let result = match generation.checked_sub(1).and_then(|g| history.generations.get(&g)) {
-                None => evaluation::first(program, &input, &settings, &mut printer),
-                Some(before) => {
-                    let rule = recipe.rule.as_deref().and_then(|name| program.rule(name));
-                    let Some(rule) = rule.or_else(|| program.default_rule()) else {
-                        let message = "the program has no rule to step";
-                        let hint = "write `void step(mesh& S) { … }`";
-                        return Err(Failed {
-                            diagnostic: Some(Box::new(Diagnostic::new(Severity::Error, None, message).hint(hint))),
-                            ..Failed::said_before(FailureKind::Program, generation)
-                        });
-                    };
-                    evaluation::advance(program, rule, &before.generation.mesh, generation, &settings, &mut printer)
-                }
-            };
-            printer.flush();
-            let kept = Kept { generation: result.map_err(failed)?, frame: None };
-            history.generations.insert(generation, kept);
-            history.evict(self.memory, generation);
-        }
-        let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
-        let frame = history.frame(request, stop).map_err(stopped)?;
-        history.evict(self.memory, request.generation);
-        Ok(frame)
-    }
-}
-
-impl History {
-    fn frame(&mut self, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Stopped> {
-        let control_mesh = self.generations.get(&0).map(|kept| kept.generation.mesh.clone());
-        if let (None, Some(mesh)) = (&self.control, &control_mesh) {
-            self.control = Some(faces(mesh, stop)?);
-        }
-        let control = match (&control_mesh, &self.control) {
-            (Some(mesh), Some(faces)) if request.generation > 0 => Some((mesh, faces)),
-            _ => None,
-        };
-        let Some(kept) = self.generations.get_mut(&request.generation) else {
-            return Err(Stopped::ByUser); // not reached: the caller has just made it
-        };
-        if let Some(frame) = &kept.frame {
-            return Ok(Arc::clone(frame));
-        }
-        let frame = Arc::new(frame(request, &kept.generation, control, stop)?);
-        kept.frame = Some(Arc::clone(&frame));
-        Ok(frame)
-    }
-
-    /// Forgets pictures first, then meshes, those farthest from `current` first, until `memory` bytes suffice.
-    /// Generation 0 and `current` stay.
-    fn evict(&mut self, memory: usize, current: u64) {
-        let mut total: usize = self.generations.values().map(Kept::bytes).sum();
-        let mut order: Vec<u64> = self.generations.keys().copied().filter(|&g| g != 0 && g != current).collect();
-        order.sort_by_key(|g| std::cmp::Reverse(g.abs_diff(current)));
-        for g in &order {
-            if total <= memory {
-                return;
-            }
-            if let Some(kept) = self.generations.get_mut(g) {
-                total -= kept.bytes();
-                kept.frame = None;
-                total += kept.bytes();
-            }
-        }
-        for g in &order {
-            if total <= memory {
-                return;
-            }
-            total -= self.generations.remove(g).map_or(0, |kept| kept.bytes());
-        }
-    }
-}
-
-impl Failed {
-    /// Nothing to add to what was reported.
-    fn said_before(kind: FailureKind, generation: u64) -> Self {
-        Self { kind, diagnostic: None, sources: Arc::default(), generation }
-    }
-}
-
-fn frame(
-    request: &Request,
-    generation: &Generation,
-    control: Option<(&Mesh, &Faces)>,
-    stop: &Stop,
-) -> Result<Frame, Stopped> {
-    let began = Instant::now();
-    let faces = faces(&generation.mesh, stop)?;
-    let statistics = statistics(&generation.mesh, &faces, stop)?;
-    let faces_s = began.elapsed().as_secs_f64();
-    let began = Instant::now();
-    let scene = Arc::new(Scene::new(&generation.mesh, &faces, control));
-    stop.check()?;
-    Ok(Frame {
-        request: request.clone(),
-        mesh: generation.mesh.clone(),
-        faces,
-        statistics,
-        control_vertices: control.map_or(generation.mesh.set.len(), |(mesh, _)| mesh.set.len()),
-        warnings: generation.warnings.clone(),
-        scene,
-        timings: Timings {
-            step: generation.step_s,
-            closing: generation.closing_s,
-            faces: faces_s,
-            scene: began.elapsed().as_secs_f64(),
-        },
-    })
-}
-
-fn shipped_mesh(name: &str, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), Box<Diagnostic>> {
-    let error = |message: String| Box::new(Diagnostic::new(Severity::Error, None, message));
-    let shipped = library::MESHES.iter().find(|m| m.name == name);
-    let format = name.rsplit_once('.').and_then(|(_, extension)| Format::from_extension(extension));
-    let (Some(shipped), Some(format)) = (shipped, format) else {
-        return Err(error(format!("no mesh called `{name}` ships with vv")));
-    };
-    vv::io::read(shipped.text.as_bytes(), format, options).map_err(|e| match e {
-        ReadError::Invalid { diagnostic, .. } => diagnostic,
-        ReadError::Stopped(stopped) => error(stopped.to_string()),
-    })
-}
-
-/// The values that fit the program's parameters.
-fn params(program: &Program, values: &BTreeMap<String, Value>) -> Vec<(vv::ir::GlobalId, Value)> {
-    let fits = |ty, range: Option<(Value, Value)>, value: Value| {
-        value.ty() == ty
-            && match (range, value) {
-                (Some((Value::Int(low), Value::Int(high))), Value::Int(x)) => low <= x && x <= high,
-                (Some((Value::Double(low), Value::Double(high))), Value::Double(x)) => low <= x && x <= high,
-                _ => true,
-            }
-    };
-    program
-        .params()
-        .filter_map(|(id, global, param)| {
-            let &value = values.get(&global.name)?;
-            fits(global.ty, param.range, value).then_some((id, value))
-        })
-        .collect()
-}
-
-/// How often printed lines are handed over: often enough to watch, seldom enough that the window gets the lock.
-const FLUSH: Duration = Duration::from_millis(50);
-
-/// Gathers what a step prints and hands it over now and then.
-struct Printer<'a> {
-    bench: &'a Bench,
-    generation: u64,
-    lines: VecDeque<String>,
-    bytes: usize,
-    dropped: u64,
-    flushed: Instant,
-}
-
-impl<'a> Printer<'a> {
-    fn new(bench: &'a Bench, generation: u64) -> Self {
-        Self { bench, generation, lines: VecDeque::new(), bytes: 0, dropped: 0, flushed: Instant::now() }
-    }
-
-    fn flush(&mut self) {
-        self.flushed = Instant::now();
-        if self.lines.is_empty() {
-            return;
-        }
-        lock(&self.bench.shared.console).append(self.generation, self.lines.drain(..), self.dropped);
-        (self.bytes, self.dropped) = (0, 0);
-        (self.bench.wake)();
-    }
-}
-
-impl Output for Printer<'_> {
-    fn print(&mut self, line: &str) -> Result<(), OutputClosed> {
-        let line = console::shortened(line);
-        self.bytes += line.len();
-        self.lines.push_back(line);
-        while self.lines.len() > console::MAX_LINES || self.bytes > console::MAX_BYTES {
-            self.bytes -= self.lines.pop_front().map_or(0, |l| l.len());
-            self.dropped += 1;
-        }
-        if self.flushed.elapsed() >= FLUSH {
-            self.flush();
-        }
-        Ok(())
+        assert_eq!(size(Value::Double(0.25)), 0.25);
+        assert_eq!(size(Value::Double(7.0)), 0.5);
+        assert_eq!(size(Value::Bool(true)), 0.5);
     }
 }

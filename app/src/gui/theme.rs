@@ -1,14 +1,25 @@
 //! Colours, fonts and distances.
 
 use eframe::egui::{
-    Color32, Context, CornerRadius, FontFamily, FontId, Frame, Margin, Stroke, Style, TextStyle, Theme, Ui, Visuals,
-    vec2,
+    Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Margin, Stroke, Style, TextStyle,
+    Theme, Ui, Visuals, vec2,
 };
 use vv::diagnostic::Severity;
 use vv::syntax::TokenClass;
 
-/// Sets both themes up.
+/// Sets both themes and the fonts up.
 pub fn install(ctx: &Context) {
+    let mut fonts = FontDefinitions::default();
+    // Each knows signs that the other lacks.
+    let names: Vec<String> = fonts.families.values().flatten().cloned().collect();
+    for family in fonts.families.values_mut() {
+        for name in &names {
+            if !family.contains(name) {
+                family.push(name.clone());
+            }
+        }
+    }
+    ctx.set_fonts(fonts);
     for theme in [Theme::Dark, Theme::Light] {
         ctx.style_mut_of(theme, |style| {
             fonts_and_distances(style);

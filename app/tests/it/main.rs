@@ -9,5 +9,7 @@
 
 mod command_line;
 mod fixtures;
+mod live_reload;
 mod pictures;
 mod shaders;
+mod window;

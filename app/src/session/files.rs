@@ -1,0 +1,280 @@
+//! Opening, saving, and files that change on disk.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver};
+use std::time::{Duration, Instant};
+
+use vv::diagnostic::Severity;
+
+use super::{Dialog, Purpose, Session};
+use crate::command::{Answer, Command};
+use crate::document::{MeshSource, NOWHERE, ProgramText};
+use crate::files;
+
+/// A file dialog that is gone sooner than this was never there.
+const NO_DIALOG: Duration = Duration::from_millis(500);
+
+/// A file dialog that is open.
+pub(super) struct Chooser {
+    purpose: Purpose,
+    since: Instant,
+    result: Receiver<Option<PathBuf>>,
+}
+
+impl Session {
+    pub(super) fn unless_unsaved(&mut self, command: Command, action: impl FnOnce(&mut Self)) {
+        if self.document.program.is_modified() {
+            self.dialog = Some(Dialog::Unsaved { then: Box::new(command) });
+        } else {
+            action(self);
+        }
+    }
+
+    pub(super) fn answer_unsaved(&mut self, answer: Answer) {
+        let Some(Dialog::Unsaved { then }) = &self.dialog else { return };
+        let then = (**then).clone();
+        if answer == Answer::Discard {
+            self.dialog = None;
+            // The saved text comes back, so that what follows finds nothing to lose.
+            self.document.program.text = Arc::clone(&self.document.program.saved);
+            self.ask_now();
+            self.apply(then);
+            return;
+        }
+        match self.document.program.path.clone() {
+            Some(path) => {
+                self.dialog = None;
+                self.save_to(&path);
+                if !self.document.program.is_modified() {
+                    self.apply(then);
+                }
+            }
+            // The question stays until the text has a file.
+            None => self.choose(Purpose::SaveProgram),
+        }
+    }
+
+    pub(super) fn open_program(&mut self, path: &Path) {
+        match files::read_program(path) {
+            Ok(text) => self.set_program(ProgramText::of_file(path, text)),
+            Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
+        }
+    }
+
+    pub(super) fn set_program(&mut self, program: ProgramText) {
+        self.document.program = program;
+        self.document.rule = None;
+        self.document.params.clear();
+        self.included.clear();
+        self.text_on_disk = None;
+        self.reveal = Some(0..0);
+        self.fit = true;
+        self.watch_files();
+        self.ask_now();
+    }
+
+    pub(super) fn use_mesh(&mut self, source: MeshSource) {
+        if matches!(source, MeshSource::File(_)) {
+            self.document.generation = 0; // who knows how large it is
+        }
+        self.playing = None;
+        self.document.mesh = source;
+        self.mesh_revision += 1;
+        self.fit = true;
+        self.watch_files();
+        self.ask_now();
+    }
+
+    pub(super) fn save_to(&mut self, path: &Path) {
+        let text = Arc::clone(&self.document.program.text);
+        match files::write(path, text.as_bytes()) {
+            Ok(()) => {
+                let program = &mut self.document.program;
+                let moved = program.path.as_deref() != Some(path);
+                program.path = Some(path.to_owned());
+                program.name = crate::document::file_name(path);
+                program.saved = text;
+                self.text_on_disk = None;
+                if moved {
+                    self.watch_files();
+                    self.ask_now(); // includes are looked for elsewhere now
+                }
+                let name = self.document.program.name.clone();
+                self.say(Severity::Note, format!("saved {name}"));
+            }
+            Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
+        }
+    }
+
+    pub(super) fn export_to(&mut self, path: PathBuf) {
+        let Some(frame) = self.frame.clone() else { return };
+        let format = path.extension().and_then(|e| vv::io::Format::from_extension(&e.to_string_lossy()));
+        let Some(format) = format else {
+            self.say(Severity::Error, "the name of a mesh ends in .obj or .off");
+            return;
+        };
+        self.in_background(move || {
+            let bytes = vv::io::write(&frame.mesh, &frame.faces, format);
+            match files::write(&path, &bytes) {
+                Ok(()) => Ok(format!("saved {}", path.display())),
+                Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
+            }
+        });
+    }
+
+    fn in_background(&mut self, work: impl FnOnce() -> Result<String, String> + Send + 'static) {
+        let (sender, receiver) = mpsc::channel();
+        let wake = Arc::clone(&self.wake);
+        std::thread::spawn(move || {
+            let _ = sender.send(work());
+            wake();
+        });
+        self.background.push(receiver);
+    }
+
+    pub(super) fn take_background(&mut self) {
+        let mut said = Vec::new();
+        self.background.retain(|receiver| match receiver.try_recv() {
+            Ok(result) => {
+                said.push(result);
+                false
+            }
+            Err(mpsc::TryRecvError::Empty) => true,
+            Err(mpsc::TryRecvError::Disconnected) => false,
+        });
+        for result in said {
+            match result {
+                Ok(text) => self.say(Severity::Note, text),
+                Err(text) => self.say(Severity::Error, text),
+            }
+        }
+    }
+
+    pub(super) fn choose(&mut self, purpose: Purpose) {
+        if self.chooser.is_some() {
+            return;
+        }
+        let program = &self.document.program;
+        let mut dialog = rfd::AsyncFileDialog::new();
+        let folder = match (&self.document.mesh, purpose) {
+            (MeshSource::File(path), Purpose::OpenMesh | Purpose::ExportMesh) => path.parent(),
+            _ => program.path.as_deref().and_then(Path::parent),
+        };
+        if let Some(folder) = folder.filter(|f| f.is_absolute()) {
+            dialog = dialog.set_directory(folder);
+        }
+        dialog = match purpose {
+            Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
+            Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &["obj", "off"]),
+        };
+        dialog = match purpose {
+            Purpose::SaveProgram => dialog.set_file_name(&program.name),
+            Purpose::ExportMesh => dialog.set_file_name("mesh.obj"),
+            Purpose::OpenProgram | Purpose::OpenMesh => dialog,
+        };
+        let (sender, result) = mpsc::channel();
+        let wake = Arc::clone(&self.wake);
+        std::thread::spawn(move || {
+            let chosen = pollster::block_on(async {
+                match purpose {
+                    Purpose::OpenProgram | Purpose::OpenMesh => dialog.pick_file().await,
+                    Purpose::SaveProgram | Purpose::ExportMesh => dialog.save_file().await,
+                }
+            });
+            let _ = sender.send(chosen.map(|file| file.path().to_owned()));
+            wake();
+        });
+        self.chooser = Some(Chooser { purpose, since: Instant::now(), result });
+    }
+
+    pub(super) fn take_choice(&mut self) {
+        let Some(chooser) = &self.chooser else { return };
+        let choice = match chooser.result.try_recv() {
+            Ok(choice) => choice,
+            Err(mpsc::TryRecvError::Empty) => return,
+            Err(mpsc::TryRecvError::Disconnected) => None,
+        };
+        let (purpose, at_once) = (chooser.purpose, chooser.since.elapsed() < NO_DIALOG);
+        self.chooser = None;
+        match choice {
+            Some(path) => self.chosen(purpose, path),
+            None if at_once => {
+                let path = match purpose {
+                    Purpose::SaveProgram => self.document.program.name.clone(),
+                    Purpose::ExportMesh => "mesh.obj".to_owned(),
+                    Purpose::OpenProgram | Purpose::OpenMesh => String::new(),
+                };
+                self.dialog = Some(Dialog::TypePath { purpose, path });
+            }
+            None => {}
+        }
+    }
+
+    /// Does with a path what it was chosen for.
+    pub fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
+        let then = match self.dialog.take() {
+            Some(Dialog::Unsaved { then }) => Some(*then),
+            _ => None,
+        };
+        match purpose {
+            Purpose::OpenProgram => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_program(&path)),
+            Purpose::OpenMesh => self.use_mesh(MeshSource::File(path)),
+            Purpose::SaveProgram => {
+                self.save_to(&with_extension(path, "vv"));
+                if let Some(then) = then.filter(|_| !self.document.program.is_modified()) {
+                    self.apply(then);
+                }
+            }
+            Purpose::ExportMesh => self.export_to(with_extension(path, "obj")),
+        }
+    }
+
+    pub(super) fn watch_files(&mut self) {
+        let mut files = self.included.clone();
+        files.extend(self.document.program.path.clone());
+        if let MeshSource::File(path) = &self.document.mesh {
+            files.insert(path.clone());
+        }
+        self.watch.set_files(files.into_iter().filter(|path| !path.starts_with(NOWHERE)));
+    }
+
+    pub(super) fn take_change(&mut self, path: &Path) {
+        if matches!(&self.document.mesh, MeshSource::File(mesh) if mesh == path) {
+            self.mesh_revision += 1;
+            self.ask_now();
+        }
+        if self.document.program.path.as_deref() != Some(path) {
+            if self.included.contains(path) {
+                self.includes_revision += 1;
+                self.ask_now();
+            }
+            return;
+        }
+        let Ok(text) = files::read_program(path) else { return };
+        let text: Arc<str> = text.into();
+        let program = &mut self.document.program;
+        if text == program.text {
+            program.saved = text;
+            self.text_on_disk = None;
+        } else if text == program.saved {
+            // What we know already, for instance because we have just written it.
+            self.text_on_disk = None;
+        } else if program.is_modified() {
+            self.text_on_disk = Some(text);
+        } else {
+            program.saved = Arc::clone(&text);
+            program.text = text;
+            self.ask_now();
+        }
+    }
+}
+
+/// Whether a path is that of a program.
+pub(super) fn is_program(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("vv"))
+}
+
+fn with_extension(path: PathBuf, extension: &str) -> PathBuf {
+    if path.extension().is_some() { path } else { path.with_extension(extension) }
+}

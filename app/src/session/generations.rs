@@ -1,0 +1,183 @@
+//! What is wanted, what is computed for it, and what came of it.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use vv::diagnostic::Severity;
+use vv::engine::FailureKind;
+
+use super::{BEAT, GRACE, Running, Session, Stale};
+use crate::worker::{Event, Failed, Recipe, Report, Request};
+
+/// Playing pauses before a generation that would probably have more vertices.
+const PLAY_VERTICES: usize = 1_000_000;
+
+impl Session {
+    pub(super) fn go_to(&mut self, generation: u64) {
+        self.document.generation = generation;
+        self.ask_now();
+    }
+
+    pub(super) fn pause_and_go_to(&mut self, generation: u64) {
+        self.playing = None;
+        self.go_to(generation);
+    }
+
+    pub(super) fn stop(&mut self) {
+        self.playing = None;
+        let Some(running) = self.running.take() else { return };
+        self.due = None;
+        let shown = self.frame.as_ref().map(|f| &f.request);
+        match shown {
+            // A step was stopped: what is shown is a good result, of the generation before.
+            Some(request) if *request.recipe == *running.request.recipe => {
+                self.document.generation = request.generation;
+                self.stale = None;
+            }
+            _ => self.stale = Some(Stale::Stopped),
+        }
+        self.say(Severity::Note, "stopped");
+    }
+
+    pub(super) fn play(&mut self) {
+        let Some(last) = self.playing else { return };
+        if self.is_busy() || last.elapsed() < BEAT {
+            return;
+        }
+        if self.stale.is_some() || !self.can_step() {
+            self.playing = None;
+            return;
+        }
+        let generation = self.document.generation;
+        let shown = self.frame.as_ref().map_or(0, |f| f.statistics.vertices);
+        if self.growth() * shown as f64 > PLAY_VERTICES as f64 {
+            self.playing = None;
+            self.say(
+                Severity::Note,
+                "paused: the next generation would have more than a million vertices; Step goes on",
+            );
+            return;
+        }
+        self.playing = Some(Instant::now());
+        self.go_to(generation.saturating_add(1));
+    }
+
+    /// By how much a generation is larger than the one before, from generation 0 to the one shown.
+    fn growth(&self) -> f64 {
+        let Some(frame) = &self.frame else { return 1.0 };
+        let first = frame.control_vertices.max(1) as f64;
+        (frame.statistics.vertices as f64 / first).powf(1.0 / frame.request.generation.max(1) as f64)
+    }
+
+    pub(super) fn ask_now(&mut self) {
+        self.ask_after(Duration::ZERO);
+    }
+
+    pub(super) fn ask_after(&mut self, pause: Duration) {
+        self.due = Some(Instant::now() + pause);
+    }
+
+    /// What is wanted.
+    fn request(&self) -> Request {
+        let document = &self.document;
+        let recipe = Recipe {
+            path: document.program.path_or_name(),
+            text: Arc::clone(&document.program.text),
+            includes_revision: self.includes_revision,
+            mesh: document.mesh.clone(),
+            mesh_revision: self.mesh_revision,
+            rule: document.rule.clone(),
+            params: document.params.clone(),
+        };
+        Request { recipe: Arc::new(recipe), generation: document.generation }
+    }
+
+    /// Hands the wish to the worker once it is due and what runs may be dropped for it.
+    pub(super) fn ask(&mut self) {
+        if self.due.is_none_or(|due| Instant::now() < due) {
+            return;
+        }
+        let request = self.request();
+        if let Some(running) = &self.running {
+            let same = *running.request.recipe == *request.recipe;
+            if same && running.request.generation == request.generation {
+                self.due = None;
+                return;
+            }
+            // A generation on the way to the one that is wanted now is no work lost.
+            if same && running.request.generation < request.generation {
+                return;
+            }
+            if running.since.elapsed() < GRACE {
+                return;
+            }
+        }
+        self.due = None;
+        self.running = None; // drops the ticket: the old work stops
+        let ticket = self.worker.submit(request.clone());
+        self.running = Some(Running { ticket, request, since: Instant::now(), stepping: None });
+    }
+
+    pub(super) fn take_report(&mut self, report: Report) {
+        let Some(running) = &mut self.running else { return };
+        if !running.ticket.issued(&report) {
+            return;
+        }
+        let request = running.request.clone();
+        match report.event {
+            Event::Compiled { compilation, files } => {
+                self.problems.compiled(&compilation);
+                if let Some(program) = &compilation.program {
+                    self.program = Some(Arc::clone(program));
+                    self.included.clear();
+                }
+                // Files of the last program that compiled stay watched: the error may be that one of them is gone.
+                self.included.extend(files);
+                self.watch_files();
+            }
+            Event::MeshRead { diagnostics } => self.problems.mesh_read(&request.recipe.mesh.name(), diagnostics),
+            Event::Stepping(generation) => running.stepping = Some(generation),
+            Event::Preview(frame) => self.frame = Some(frame),
+            Event::Finished(frame) => {
+                self.problems.ran(&frame.warnings, &Arc::default());
+                self.frame = Some(frame);
+                self.stale = None;
+                self.running = None;
+            }
+            Event::Failed(failed) => {
+                self.running = None;
+                self.failed(failed);
+            }
+        }
+    }
+
+    fn failed(&mut self, failed: Failed) {
+        self.playing = None;
+        if let FailureKind::Stopped(_) = failed.kind {
+            self.stale = Some(Stale::Stopped);
+            return;
+        }
+        self.problems.ran(failed.diagnostic.as_deref().map_or(&[], std::slice::from_ref), &failed.sources);
+        let message = match self.problems.first_error() {
+            Some(problem) => match problem.place.as_ref().filter(|place| place.own) {
+                Some(place) => format!("line {}: {}", place.start.line, problem.diagnostic.message),
+                None => problem.diagnostic.message.clone(),
+            },
+            None => "the program failed".to_owned(),
+        };
+        self.stale = Some(Stale::Failed(message));
+    }
+
+    pub(super) fn fix(&mut self, hint: &vv::diagnostic::Hint) {
+        let Some((span, replacement)) = &hint.edit else { return };
+        let text = &self.document.program.text;
+        let (start, end) = (span.start as usize, span.end as usize);
+        // The text may have changed since the diagnostic was made.
+        if span.file != vv::source::FileId::MAIN || text.get(start..end).is_none() {
+            return;
+        }
+        let text = format!("{}{replacement}{}", &text[..start], &text[end..]);
+        self.document.program.text = text.into();
+        self.ask_now();
+    }
+}

@@ -1,0 +1,291 @@
+//! The worker's thread: requests to frames.
+
+use std::collections::BTreeMap;
+use std::panic::AssertUnwindSafe;
+use std::path::PathBuf;
+use std::sync::mpsc::Sender;
+use std::sync::{Arc, PoisonError};
+
+use vv::Compilation;
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::engine::{Failure, FailureKind, Limits, Settings};
+use vv::io::{Format, ReadError, ReadOptions};
+use vv::ir::Program;
+use vv::mesh::{Mesh, Value};
+use vv::stop::{Stop, Stopped};
+
+use super::history::{History, Kept, frame};
+use super::printer::Printer;
+use super::{Event, Failed, Frame, Recipe, Report, Request, Shared, lock};
+use crate::document::MeshSource;
+use crate::evaluation::{self, Generation};
+use crate::{files, library};
+
+/// The state of the worker's thread.
+pub(super) struct Bench {
+    shared: Arc<Shared>,
+    reports: Sender<Report>,
+    wake: Box<dyn Fn() + Send>,
+    limits: Limits,
+    /// Bytes that kept generations may use.
+    memory: usize,
+    compiled: Option<Compiled>,
+    input: Option<Input>,
+    history: Option<History>,
+    /// Source and revision of the mesh that the last frame came from.
+    shown_mesh: Option<(MeshSource, u64)>,
+}
+
+struct Compiled {
+    path: PathBuf,
+    text: Arc<str>,
+    revision: u64,
+    compilation: Compilation,
+    files: Vec<PathBuf>,
+}
+
+struct Input {
+    source: MeshSource,
+    revision: u64,
+    mesh: Option<Mesh>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Bench {
+    pub(super) fn new(
+        shared: Arc<Shared>,
+        reports: Sender<Report>,
+        wake: Box<dyn Fn() + Send>,
+        limits: Limits,
+        memory: usize,
+    ) -> Self {
+        let (compiled, input, history, shown_mesh) = (None, None, None, None);
+        Self { shared, reports, wake, limits, memory, compiled, input, history, shown_mesh }
+    }
+
+    /// Serves one request after the other until the worker is dropped.
+    pub(super) fn work(mut self) {
+        loop {
+            let (ticket, request, stop) = {
+                let mut slot = lock(&self.shared.slot);
+                loop {
+                    if slot.closed {
+                        return;
+                    }
+                    match slot.request.take() {
+                        Some(request) => {
+                            slot.current = Some(request.2.clone());
+                            break request;
+                        }
+                        None => slot = self.shared.filled.wait(slot).unwrap_or_else(PoisonError::into_inner),
+                    }
+                }
+            };
+            let generation = request.generation;
+            let outcome = std::panic::catch_unwind(AssertUnwindSafe(|| self.serve(ticket, &request, &stop)));
+            let event = match outcome {
+                Ok(Ok(frame)) => Event::Finished(frame),
+                Ok(Err(failed)) => Event::Failed(failed),
+                Err(_) => {
+                    // Whatever was being changed is suspect now.
+                    (self.compiled, self.input, self.history) = (None, None, None);
+                    let message = "vv itself failed here, which is a mistake in vv; the window goes on";
+                    Event::Failed(Failed {
+                        kind: FailureKind::Program,
+                        diagnostic: Some(Box::new(Diagnostic::new(Severity::Error, None, message))),
+                        sources: Arc::default(),
+                        generation,
+                    })
+                }
+            };
+            self.report(ticket, event);
+        }
+    }
+
+    fn report(&self, ticket: u64, event: Event) {
+        // Nobody listens any more: the window closes.
+        let _ = self.reports.send(Report { ticket, event });
+        (self.wake)();
+    }
+
+    fn serve(&mut self, ticket: u64, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Failed> {
+        let recipe = &request.recipe;
+        self.compile(recipe);
+        self.read(recipe, stop)?;
+        let (Some(compiled), Some(input)) = (&self.compiled, &self.input) else {
+            return Err(Failed::said_before(FailureKind::Program, request.generation));
+        };
+        let (compilation, files) = (compiled.compilation.clone(), compiled.files.clone());
+        let program = compilation.program.clone();
+        self.report(ticket, Event::Compiled { compilation, files });
+        self.report(ticket, Event::MeshRead { diagnostics: input.diagnostics.clone() });
+        let Some(mesh) = input.mesh.clone() else {
+            return Err(Failed::said_before(FailureKind::Program, 0));
+        };
+        let mesh_key = Some((recipe.mesh.clone(), recipe.mesh_revision));
+        let Some(program) = program else {
+            if self.shown_mesh != mesh_key {
+                let request = Request { recipe: Arc::clone(recipe), generation: 0 };
+                let first = Generation { mesh, ..Generation::default() };
+                let stopped = |_| Failed::said_before(FailureKind::Stopped(Stopped::ByUser), 0);
+                let frame = frame(&request, &first, None, stop).map_err(stopped)?;
+                self.report(ticket, Event::Preview(Arc::new(frame)));
+                self.shown_mesh = mesh_key;
+            }
+            return Err(Failed::said_before(FailureKind::Program, request.generation));
+        };
+        let frame = self.generation(ticket, request, &program, mesh, stop)?;
+        self.shown_mesh = mesh_key;
+        Ok(frame)
+    }
+
+    fn compile(&mut self, recipe: &Recipe) {
+        let revision = recipe.includes_revision;
+        if let Some(c) = &self.compiled
+            && c.path == recipe.path
+            && c.text == recipe.text
+            && c.revision == revision
+        {
+            return;
+        }
+        let (compilation, files) = files::compile(&recipe.path, &recipe.text);
+        let (path, text) = (recipe.path.clone(), Arc::clone(&recipe.text));
+        self.compiled = Some(Compiled { path, text, revision, compilation, files });
+    }
+
+    fn read(&mut self, recipe: &Recipe, stop: &Stop) -> Result<(), Failed> {
+        let revision = recipe.mesh_revision;
+        if self.input.as_ref().is_some_and(|i| i.source == recipe.mesh && i.revision == revision) {
+            return Ok(());
+        }
+        let options = ReadOptions { stop: stop.clone(), ..ReadOptions::default() };
+        let result = match &recipe.mesh {
+            MeshSource::Empty => Ok((Mesh::new(), Vec::new())),
+            MeshSource::File(path) => files::read_mesh(path, &options).map_err(|e| e.diagnostic),
+            MeshSource::BuiltIn(name) => shipped_mesh(name, &options),
+        };
+        if let Err(stopped) = stop.check() {
+            return Err(Failed::said_before(FailureKind::Stopped(stopped), 0));
+        }
+        let source = recipe.mesh.clone();
+        self.input = Some(match result {
+            Ok((mesh, diagnostics)) => Input { source, revision, mesh: Some(mesh), diagnostics },
+            Err(error) => Input { source, revision, mesh: None, diagnostics: vec![*error] },
+        });
+        Ok(())
+    }
+
+    fn generation(
+        &mut self,
+        ticket: u64,
+        request: &Request,
+        program: &Arc<Program>,
+        input: Mesh,
+        stop: &Stop,
+    ) -> Result<Arc<Frame>, Failed> {
+        let recipe = &request.recipe;
+        let mut history = match self.history.take() {
+            Some(history) if history.recipe == *recipe => history,
+            _ => {
+                lock(&self.shared.console).clear();
+                History::new(Arc::clone(recipe))
+            }
+        };
+        let result = self.advance_to(ticket, request, program, input, stop, &mut history);
+        // A step that failed leaves the generations before it as they were.
+        self.history = Some(history);
+        result
+    }
+
+    fn advance_to(
+        &self,
+        ticket: u64,
+        request: &Request,
+        program: &Arc<Program>,
+        input: Mesh,
+        stop: &Stop,
+        history: &mut History,
+    ) -> Result<Arc<Frame>, Failed> {
+        let recipe = &request.recipe;
+        let settings = Settings {
+            params: params(program, &recipe.params),
+            limits: self.limits,
+            stop: stop.clone(),
+            ..Settings::default()
+        };
+        let nearest = history.generations.range(..=request.generation).next_back().map(|(&g, _)| g);
+        for generation in nearest.map_or(0, |g| g + 1)..=request.generation {
+            let failed = |failure: Failure| Failed {
+                kind: failure.kind,
+                diagnostic: Some(failure.diagnostic),
+                sources: Arc::clone(&program.sources),
+                generation,
+            };
+            self.report(ticket, Event::Stepping(generation));
+            let mut printer = Printer::new(&self.shared, &*self.wake, generation);
+            lock(&self.shared.console).begin(generation);
+            let result = match generation.checked_sub(1).and_then(|g| history.generations.get(&g)) {
+                None => evaluation::first(program, &input, &settings, &mut printer),
+                Some(before) => {
+                    let rule = recipe.rule.as_deref().and_then(|name| program.rule(name));
+                    let Some(rule) = rule.or_else(|| program.default_rule()) else {
+                        let message = "the program has no rule to step";
+                        let hint = "write `void step(mesh& S) { … }`";
+                        return Err(Failed {
+                            diagnostic: Some(Box::new(Diagnostic::new(Severity::Error, None, message).hint(hint))),
+                            ..Failed::said_before(FailureKind::Program, generation)
+                        });
+                    };
+                    evaluation::advance(program, rule, &before.generation.mesh, generation, &settings, &mut printer)
+                }
+            };
+            printer.flush();
+            let kept = Kept { generation: result.map_err(failed)?, frame: None };
+            history.generations.insert(generation, kept);
+            history.evict(self.memory, generation);
+        }
+        let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
+        let frame = history.frame(request, stop).map_err(stopped)?;
+        history.evict(self.memory, request.generation);
+        Ok(frame)
+    }
+}
+
+impl Failed {
+    /// Nothing to add to what was reported.
+    fn said_before(kind: FailureKind, generation: u64) -> Self {
+        Self { kind, diagnostic: None, sources: Arc::default(), generation }
+    }
+}
+
+fn shipped_mesh(name: &str, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), Box<Diagnostic>> {
+    let error = |message: String| Box::new(Diagnostic::new(Severity::Error, None, message));
+    let shipped = library::MESHES.iter().find(|m| m.name == name);
+    let format = name.rsplit_once('.').and_then(|(_, extension)| Format::from_extension(extension));
+    let (Some(shipped), Some(format)) = (shipped, format) else {
+        return Err(error(format!("no mesh called `{name}` ships with vv")));
+    };
+    vv::io::read(shipped.text.as_bytes(), format, options).map_err(|e| match e {
+        ReadError::Invalid { diagnostic, .. } => diagnostic,
+        ReadError::Stopped(stopped) => error(stopped.to_string()),
+    })
+}
+
+/// The values that fit the program's parameters.
+fn params(program: &Program, values: &BTreeMap<String, Value>) -> Vec<(vv::ir::GlobalId, Value)> {
+    let fits = |ty, range: Option<(Value, Value)>, value: Value| {
+        value.ty() == ty
+            && match (range, value) {
+                (Some((Value::Int(low), Value::Int(high))), Value::Int(x)) => low <= x && x <= high,
+                (Some((Value::Double(low), Value::Double(high))), Value::Double(x)) => low <= x && x <= high,
+                _ => true,
+            }
+    };
+    program
+        .params()
+        .filter_map(|(id, global, param)| {
+            let &value = values.get(&global.name)?;
+            fits(global.ty, param.range, value).then_some((id, value))
+        })
+        .collect()
+}

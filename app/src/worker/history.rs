@@ -1,0 +1,115 @@
+//! The generations of a recipe that are kept, and their pictures.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Instant;
+
+use vv::mesh::Mesh;
+use vv::mesh::faces::{Faces, faces};
+use vv::mesh::statistics::statistics;
+use vv::stop::{Stop, Stopped};
+
+use super::{Frame, Recipe, Request, Timings};
+use crate::evaluation::Generation;
+use crate::scene::Scene;
+
+/// The generations of one recipe.
+pub(super) struct History {
+    pub recipe: Arc<Recipe>,
+    pub generations: BTreeMap<u64, Kept>,
+    control: Option<Faces>,
+}
+
+pub(super) struct Kept {
+    pub generation: Generation,
+    pub frame: Option<Arc<Frame>>,
+}
+
+impl Kept {
+    /// The picture takes about as much again as the mesh.
+    fn bytes(&self) -> usize {
+        self.generation.mesh.bytes() * if self.frame.is_some() { 3 } else { 1 }
+    }
+}
+
+impl History {
+    pub fn new(recipe: Arc<Recipe>) -> Self {
+        Self { recipe, generations: BTreeMap::new(), control: None }
+    }
+
+    /// The picture of a generation that is kept.
+    pub fn frame(&mut self, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Stopped> {
+        let control_mesh = self.generations.get(&0).map(|kept| kept.generation.mesh.clone());
+        if let (None, Some(mesh)) = (&self.control, &control_mesh) {
+            self.control = Some(faces(mesh, stop)?);
+        }
+        let control = match (&control_mesh, &self.control) {
+            (Some(mesh), Some(faces)) if request.generation > 0 => Some((mesh, faces)),
+            _ => None,
+        };
+        let Some(kept) = self.generations.get_mut(&request.generation) else {
+            return Err(Stopped::ByUser); // not reached: the caller has just made it
+        };
+        if let Some(frame) = &kept.frame {
+            return Ok(Arc::clone(frame));
+        }
+        let frame = Arc::new(frame(request, &kept.generation, control, stop)?);
+        kept.frame = Some(Arc::clone(&frame));
+        Ok(frame)
+    }
+
+    /// Forgets pictures first, then meshes, those farthest from `current` first, until `memory` bytes suffice.
+    /// Generation 0 and `current` stay.
+    pub fn evict(&mut self, memory: usize, current: u64) {
+        let mut total: usize = self.generations.values().map(Kept::bytes).sum();
+        let mut order: Vec<u64> = self.generations.keys().copied().filter(|&g| g != 0 && g != current).collect();
+        order.sort_by_key(|g| std::cmp::Reverse(g.abs_diff(current)));
+        for g in &order {
+            if total <= memory {
+                return;
+            }
+            if let Some(kept) = self.generations.get_mut(g) {
+                total -= kept.bytes();
+                kept.frame = None;
+                total += kept.bytes();
+            }
+        }
+        for g in &order {
+            if total <= memory {
+                return;
+            }
+            total -= self.generations.remove(g).map_or(0, |kept| kept.bytes());
+        }
+    }
+}
+
+/// Faces, counts and scene of a generation.
+pub(super) fn frame(
+    request: &Request,
+    generation: &Generation,
+    control: Option<(&Mesh, &Faces)>,
+    stop: &Stop,
+) -> Result<Frame, Stopped> {
+    let began = Instant::now();
+    let faces = faces(&generation.mesh, stop)?;
+    let statistics = statistics(&generation.mesh, &faces, stop)?;
+    let faces_s = began.elapsed().as_secs_f64();
+    let began = Instant::now();
+    let scene = Arc::new(Scene::new(&generation.mesh, &faces, control));
+    stop.check()?;
+    Ok(Frame {
+        request: request.clone(),
+        mesh: generation.mesh.clone(),
+        faces,
+        statistics,
+        control_vertices: control.map_or(generation.mesh.set.len(), |(mesh, _)| mesh.set.len()),
+        warnings: generation.warnings.clone(),
+        scene,
+        timings: Timings {
+            step: generation.step_s,
+            closing: generation.closing_s,
+            faces: faces_s,
+            scene: began.elapsed().as_secs_f64(),
+        },
+    })
+}
