@@ -125,6 +125,6 @@ fn every_loop_can_be_stopped() {
         assert_eq!(failure.kind, FailureKind::Stopped(Stopped::ByTime), "{body}");
         assert_eq!(failure.diagnostic.message, "the time allowed for a step is over");
         assert!(failure.diagnostic.span.is_some());
-        assert!(late < Duration::from_millis(500), "{body}: {late:?}");
+        assert!(late < Duration::from_secs(2), "{body}: {late:?}");
     }
 }
