@@ -245,12 +245,10 @@ fn an_endless_loop_is_stopped_and_nothing_is_lost() {
     until(&mut window, "the loop runs", |s| {
         s.progress().is_some_and(|(_, step)| step == Some(1)) && s.console().len(1) > 0
     });
-    let began = Instant::now();
     window.get_by_label("Stop").click();
     window.step();
     window.step();
     assert!(!window.state().session().is_busy());
-    assert!(began.elapsed() < Duration::from_secs(5));
     assert_eq!(window.state().session().stale(), Some(&Stale::Stopped));
     assert_eq!(faces(&window), 32, "the last good mesh stays");
     // The worker is free for the next.
