@@ -13,4 +13,5 @@ mod mesh;
 mod run;
 mod shapes;
 
+mod architecture;
 mod check;
