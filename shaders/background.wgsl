@@ -16,5 +16,5 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    return mix(frame.background_bottom, frame.background_top, in.height * 0.5 + 0.5);
+    return output(mix(frame.background_bottom, frame.background_top, in.height * 0.5 + 0.5));
 }

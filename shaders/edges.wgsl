@@ -24,9 +24,9 @@ struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(linear) along: f32, // pixels from the first end
     @location(1) @interpolate(linear) across: f32, // pixels from the line
-    @location(2) @interpolate(flat) length: f32, // pixels
-    @location(3) @interpolate(flat) width: f32, // pixels
-    @location(4) @interpolate(flat) color: vec4<f32>,
+    @location(2) @interpolate(flat, either) length: f32, // pixels
+    @location(3) @interpolate(flat, either) width: f32, // pixels
+    @location(4) @interpolate(flat, either) color: vec4<f32>,
 }
 
 fn corner_position(i: u32) -> vec3<f32> {
@@ -107,5 +107,5 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let beyond = max(max(-in.along, in.along - in.length), 0.0);
     let d = length(vec2(beyond, in.across));
     let cover = clamp(in.width * 0.5 + 0.5 - d, 0.0, 1.0);
-    return vec4(in.color.rgb, in.color.a * cover);
+    return output(vec4(in.color.rgb, in.color.a * cover));
 }

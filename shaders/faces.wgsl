@@ -24,7 +24,7 @@ struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) view_position: vec3<f32>,
     @location(1) normal: vec3<f32>,
-    @location(2) @interpolate(flat, first) face_normal: vec3<f32>,
+    @location(2) @interpolate(flat, either) face_normal: vec3<f32>,
 }
 
 @vertex
@@ -57,5 +57,5 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     let h = normalize(KEY_DIRECTION + v);
     let gloss = GLOSS * pow(max(dot(n, h), 0.0), GLOSS_POWER);
     let rim = RIM * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), RIM_POWER);
-    return vec4(albedo * light + gloss + rim * SKY, 1.0);
+    return output(vec4(albedo * light + gloss + rim * SKY, 1.0));
 }

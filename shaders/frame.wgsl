@@ -18,6 +18,7 @@ struct Frame {
     pixel: f32, // length of a pixel at distance 1
     scale: f32, // pixels per point
     smooth_shading: u32,
+    encode: u32, // the target does not turn light into sRGB
 }
 
 // How the lines and points of one mesh look.
@@ -45,6 +46,16 @@ fn unpack_normal(word: u32) -> vec3<f32> {
     let below = max(-z, 0.0);
     let xy = square + select(vec2(below), vec2(-below), square >= vec2(0.0));
     return normalize(vec3(xy, z));
+}
+
+// What to write into the target for a colour in linear light: sRGB (IEC 61966-2-1) where the target does not encode.
+fn output(color: vec4<f32>) -> vec4<f32> {
+    if frame.encode == 0u {
+        return color;
+    }
+    let c = clamp(color.rgb, vec3(0.0), vec3(1.0));
+    let curve = 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055;
+    return vec4(select(curve, 12.92 * c, c <= vec3(0.0031308)), color.a);
 }
 
 // From the whole picture to the tile that is drawn now.

@@ -14,8 +14,8 @@ const ROOM = 0.4;
 struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(linear) offset: vec2<f32>, // pixels from the centre
-    @location(1) @interpolate(flat) radius: f32, // pixels
-    @location(2) @interpolate(flat) opacity: f32,
+    @location(1) @interpolate(flat, either) radius: f32, // pixels
+    @location(2) @interpolate(flat, either) opacity: f32,
 }
 
 @vertex
@@ -60,5 +60,5 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let ring = min(RING * frame.scale, in.radius * 0.4) * smoothstep(1.5, 2.5, in.radius / frame.scale);
     let inside = clamp(in.radius - ring + 0.5 - d, 0.0, 1.0);
     let color = mix(layer.ring, layer.point, select(1.0, inside, ring > 0.0));
-    return vec4(color.rgb, color.a * cover * in.opacity);
+    return output(vec4(color.rgb, color.a * cover * in.opacity));
 }

@@ -28,7 +28,7 @@ pub use target::Target;
 pub use upload::Uploaded;
 
 use frame::{Tile, layer_draws};
-use pipelines::Pipelines;
+use pipelines::{Pipelines, color_format};
 
 /// A picture's size.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,8 +109,8 @@ pub struct Renderer {
     queue: wgpu::Queue,
     pipelines: Pipelines,
     samples: u32,
-    /// OpenGL takes the last corner of a triangle to speak for it, all others the first.
-    last_corner_speaks: bool,
+    /// OpenGL differs in which corner speaks for a triangle, and in what it can do with sRGB.
+    opengl: bool,
 }
 
 /// How to ask an adapter for a device that takes meshes and pictures as large as it can.
@@ -126,9 +126,9 @@ impl Renderer {
     /// # Errors
     /// If the driver refuses a pipeline.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, samples: u32) -> Result<Self, RenderError> {
-        let pipelines = guarded(device, || Pipelines::new(device, samples))?;
-        let last_corner_speaks = device.adapter_info().backend == wgpu::Backend::Gl;
-        Ok(Self { device: device.clone(), queue: queue.clone(), pipelines, samples, last_corner_speaks })
+        let opengl = device.adapter_info().backend == wgpu::Backend::Gl;
+        let pipelines = guarded(device, || Pipelines::new(device, color_format(opengl), samples))?;
+        Ok(Self { device: device.clone(), queue: queue.clone(), pipelines, samples, opengl })
     }
 
     /// Somewhere to draw.
@@ -143,7 +143,9 @@ impl Renderer {
                 "a picture of {width}x{height} pixels is too large for this graphics driver, which takes {most} a side"
             )));
         }
-        guarded(&self.device, || Target::new(&self.device, &self.pipelines, size, self.samples))
+        guarded(&self.device, || {
+            Target::new(&self.device, &self.pipelines, color_format(self.opengl), size, self.samples)
+        })
     }
 
     /// Brings a scene to the GPU.
@@ -152,9 +154,7 @@ impl Renderer {
     /// If it is larger than the driver takes.
     pub fn upload(&self, scene: &Scene) -> Result<Uploaded, RenderError> {
         Uploaded::check(scene, &self.device.limits())?;
-        guarded(&self.device, || {
-            Uploaded::new(&self.device, &self.queue, &self.pipelines, scene, self.last_corner_speaks)
-        })
+        guarded(&self.device, || Uploaded::new(&self.device, &self.queue, &self.pipelines, scene, self.opengl))
     }
 
     /// Draws into the target; returns as soon as the work is handed over to the GPU.
@@ -174,7 +174,7 @@ impl Renderer {
         style: &Style,
         tile: Tile,
     ) -> Result<(), RenderError> {
-        let frame = frame::frame(scene, camera, style, tile);
+        let frame = frame::frame(scene, camera, style, tile, self.opengl);
         let layers = frame::layers(scene, style, tile.picture.scale);
         guarded(&self.device, || {
             target.write_uniforms(&self.queue, &frame, &layers);

@@ -8,6 +8,8 @@
 //! ```
 
 mod part;
+#[cfg(test)]
+mod tests;
 mod triangulate;
 
 use glam::{DVec3, Vec3};

@@ -53,7 +53,8 @@ pub(super) struct Frame {
     pixel: f32,
     scale: f32,
     smooth_shading: u32,
-    padding: [u32; 3],
+    encode: u32,
+    padding: [u32; 2],
 }
 
 /// `Layer` of `shaders/frame.wgsl`.
@@ -89,7 +90,8 @@ const FAINTEST: f32 = 0.15;
 /// As in `shaders/edges.wgsl`: points between lines below which they are not drawn.
 const GONE_AT: f64 = 2.5;
 
-pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile) -> Frame {
+/// With `encode` the shaders turn light into sRGB, because the target does not.
+pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile, encode: bool) -> Frame {
     let palette = palette(style.theme);
     // Scene coordinates are turned and shifted in double precision, so that a far-away origin costs nothing.
     let eye = (camera.eye() - scene.origin) / scene.unit;
@@ -112,7 +114,8 @@ pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile
         pixel: pixel(camera, tile.picture) as f32,
         scale: tile.picture.scale,
         smooth_shading: u32::from(style.smooth),
-        padding: [0; 3],
+        encode: u32::from(encode),
+        padding: [0; 2],
     }
 }
 

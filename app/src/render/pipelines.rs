@@ -2,11 +2,15 @@
 
 use super::shaders;
 
-/// Colour of the target: sRGB, so that blending happens in linear light.
-pub(super) const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
-/// The same bytes as egui wants to see them.
+/// The bytes of the colour target as egui wants to see them.
 pub(super) const COLOR_BYTES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Colour of the target: sRGB, so that blending happens in linear light. OpenGL cannot show the bytes of such a texture
+/// as they are; there the shaders encode what they draw, and blending is a little less exact.
+pub(super) fn color_format(opengl: bool) -> wgpu::TextureFormat {
+    if opengl { COLOR_BYTES } else { wgpu::TextureFormat::Rgba8UnormSrgb }
+}
 
 #[derive(Debug)]
 pub(super) struct Pipelines {
@@ -39,7 +43,7 @@ const CORNERS: &[Option<wgpu::VertexBufferLayout<'static>>] = &[Some(wgpu::Verte
 })];
 
 impl Pipelines {
-    pub(super) fn new(device: &wgpu::Device, samples: u32) -> Self {
+    pub(super) fn new(device: &wgpu::Device, color: wgpu::TextureFormat, samples: u32) -> Self {
         use wgpu::CompareFunction::{Always, Greater, GreaterEqual, Less};
         let frame_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
@@ -61,14 +65,14 @@ impl Pipelines {
         });
         let lines = |name, shader, depth| {
             let pass = Pass { name, shader, depth, solid: false, buffers: &[] };
-            pipeline(device, &layout, samples, &pass)
+            pipeline(device, &layout, (color, samples), &pass)
         };
         let faces = Pass { name: "faces", shader: shaders::FACES, depth: Greater, solid: true, buffers: CORNERS };
         let background =
             Pass { name: "background", shader: shaders::BACKGROUND, depth: Always, solid: false, buffers: &[] };
         Self {
-            background: pipeline(device, &flat_layout, samples, &background),
-            faces: pipeline(device, &flat_layout, samples, &faces),
+            background: pipeline(device, &flat_layout, (color, samples), &background),
+            faces: pipeline(device, &flat_layout, (color, samples), &faces),
             edges: lines("edges", shaders::EDGES, GreaterEqual),
             vertices: lines("vertices", shaders::VERTICES, GreaterEqual),
             hidden_edges: lines("hidden edges", shaders::EDGES, Less),
@@ -103,7 +107,12 @@ fn entry(
     wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
 
-fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, samples: u32, pass: &Pass) -> wgpu::RenderPipeline {
+fn pipeline(
+    device: &wgpu::Device,
+    layout: &wgpu::PipelineLayout,
+    (format, samples): (wgpu::TextureFormat, u32),
+    pass: &Pass,
+) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(pass.name),
         source: wgpu::ShaderSource::Wgsl(pass.shader.into()),
@@ -139,7 +148,7 @@ fn pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout, samples: u32, 
             entry_point: Some("fragment"),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(wgpu::ColorTargetState {
-                format: COLOR,
+                format,
                 blend: if pass.solid { None } else { Some(over) },
                 write_mask: wgpu::ColorWrites::ALL,
             })],

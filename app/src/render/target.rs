@@ -2,7 +2,7 @@
 
 use super::Size;
 use super::frame::{Frame, LAYERS, Layer};
-use super::pipelines::{COLOR, COLOR_BYTES, DEPTH, Pipelines};
+use super::pipelines::{COLOR_BYTES, DEPTH, Pipelines};
 
 /// Layers lie this far apart in their buffer: the largest alignment a driver may ask for.
 const LAYER_STRIDE: u64 = 256;
@@ -22,7 +22,13 @@ pub struct Target {
 }
 
 impl Target {
-    pub(super) fn new(device: &wgpu::Device, pipelines: &Pipelines, size: Size, samples: u32) -> Self {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        pipelines: &Pipelines,
+        format: wgpu::TextureFormat,
+        size: Size,
+        samples: u32,
+    ) -> Self {
         let texture = |label, format, sample_count, usage, view_formats| {
             let size =
                 wgpu::Extent3d { width: size.width.max(1), height: size.height.max(1), depth_or_array_layers: 1 };
@@ -44,7 +50,7 @@ impl Target {
             let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
             device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
         };
-        let color = texture("color", COLOR, 1, shown, &[COLOR_BYTES]);
+        let color = texture("color", format, 1, shown, if format == COLOR_BYTES { &[] } else { &[COLOR_BYTES] });
         let frame = buffer("frame", size_of::<Frame>() as u64);
         let layers = buffer("layers", LAYER_STRIDE * LAYERS as u64);
         let one_layer =
@@ -60,7 +66,7 @@ impl Target {
         Self {
             size,
             color_view: view(&color),
-            multisampled: (samples > 1).then(|| view(&texture("samples", COLOR, samples, attachment, &[]))),
+            multisampled: (samples > 1).then(|| view(&texture("samples", format, samples, attachment, &[]))),
             depth: view(&texture("depth", DEPTH, samples, attachment, &[])),
             color,
             frame,

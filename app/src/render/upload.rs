@@ -61,14 +61,15 @@ impl Uploaded {
         queue: &wgpu::Queue,
         pipelines: &Pipelines,
         scene: &Scene,
-        last_corner_speaks: bool,
+        opengl: bool,
     ) -> Self {
         let upload = Upload { device, queue };
         let (mesh_corners, mesh) = upload.part(pipelines, &scene.mesh).unzip();
         let (_, control) = upload.part(pipelines, &scene.control).unzip();
         let faces = mesh_corners.filter(|_| !scene.mesh.triangles.is_empty()).map(|corners| FaceBuffers {
             corners,
-            indices: if last_corner_speaks {
+            indices: if opengl {
+                // Here the last corner of a triangle speaks for it.
                 let turned: Vec<_> = scene.mesh.triangles.iter().map(|&[a, b, c]| [b, c, a]).collect();
                 upload.buffer("triangles", wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&turned))
             } else {

@@ -2,6 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
+/// Concave polygons with more corners than this become fans. Cutting ears takes up to the square of their number, and
+/// what has so many is hardly a polygon that somebody drew, but the work of a program gone astray.
+const MOST_EARS: usize = 10_000;
+
 /// Cuts polygons into triangles; keeps its memory from one polygon to the next.
 #[derive(Default)]
 pub(super) struct Triangulator {
@@ -29,7 +33,7 @@ impl Triangulator {
     ///
     /// Convex polygons become fans (quadrilaterals are cut along the shorter diagonal), concave ones are cut by ears
     /// after projection on the plane that fits best. One that projects onto a line becomes a fan too: none of its
-    /// triangulations is better than another.
+    /// triangulations is better than another; so does a concave one with more than 10,000 corners.
     pub(super) fn triangles(&mut self, points: &[DVec3], normal: DVec3, out: &mut Vec<[u32; 3]>) {
         out.clear();
         match points {
@@ -48,7 +52,7 @@ impl Triangulator {
         let (x, y) = normal.any_orthonormal_pair();
         self.flat.clear();
         self.flat.extend(points.iter().map(|&p| [(p - points[0]).dot(x), (p - points[0]).dot(y)]));
-        if is_convex(&self.flat) {
+        if points.len() > MOST_EARS || is_convex(&self.flat) {
             return fan(points.len(), out);
         }
         self.earcut.earcut_slice(&self.flat, &[], &mut self.corners);
@@ -187,5 +191,14 @@ mod tests {
             })
             .collect();
         check(&spikes);
+    }
+
+    #[test]
+    fn a_tangle_of_a_million_corners_takes_no_time() {
+        let tangle: Vec<_> =
+            (0..1_000_000i64).map(|i| DVec3::new((i * 7919 % 1009) as f64, (i % 997) as f64, 0.0)).collect();
+        let mut triangles = Vec::new();
+        Triangulator::default().triangles(&tangle, newell(&tangle), &mut triangles);
+        assert_eq!(triangles.len(), 999_998);
     }
 }
