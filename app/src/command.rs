@@ -191,10 +191,12 @@ impl Command {
             Self::SetTheme(ThemeChoice::System) => ("System theme", "light or dark as the system is", &[]),
             Self::SetTheme(ThemeChoice::Light) => ("Light theme", "dark on light", &[]),
             Self::SetTheme(ThemeChoice::Dark) => ("Dark theme", "light on dark", &[]),
-            Self::Toggle(Panel::Program) => ("Program", "show the program", const { &[ctrl(Key::Num1)] }),
-            Self::Toggle(Panel::Messages) => ("Messages", "show problems and console", const { &[ctrl(Key::Num2)] }),
+            Self::Toggle(Panel::Program) => ("Program panel", "show the program", const { &[ctrl(Key::Num1)] }),
+            Self::Toggle(Panel::Messages) => {
+                ("Messages panel", "show problems and console", const { &[ctrl(Key::Num2)] })
+            }
             Self::Toggle(Panel::Inspector) => {
-                ("Inspector", "show parameters, display and statistics", const { &[ctrl(Key::Num3)] })
+                ("Inspector panel", "show parameters, display and statistics", const { &[ctrl(Key::Num3)] })
             }
             Self::Open(_)
             | Self::OpenExample(_)

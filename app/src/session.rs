@@ -261,6 +261,8 @@ impl Session {
 
             // A step that failed is tried again, not stepped over.
             Command::Step if self.stale.is_some() => self.ask_now(),
+            // A key held down does not pile up generations, each four times the work of the one before.
+            Command::Step if generation > self.shown_generation().saturating_add(1) => {}
             Command::Step => self.go_to(generation.saturating_add(1)),
             Command::Back => self.pause_and_go_to(generation.saturating_sub(1)),
             Command::Rewind => self.pause_and_go_to(0),
@@ -346,6 +348,12 @@ impl Session {
         self.running.as_ref().map(|r| (r.since.elapsed().as_secs_f64(), r.stepping))
     }
 
+    /// The generation of [`Session::frame`], 0 if there is none.
+    #[must_use]
+    pub fn shown_generation(&self) -> u64 {
+        self.frame.as_ref().map_or(0, |frame| frame.request.generation)
+    }
+
     /// Whether something is computed or about to be.
     #[must_use]
     pub fn is_busy(&self) -> bool {
@@ -428,14 +436,19 @@ impl Session {
 /// What the window opens with.
 fn welcome(refined: bool) -> Document {
     let program = ["loop.vv", "paper-loop.vv"].iter().find_map(|name| library::program(name));
-    let mesh = library::MESHES.iter().find(|m| m.name == "tetrapod.obj").or(library::MESHES.first());
     Document {
         program: program.map_or_else(|| ProgramText::new("untitled.vv", ""), |p| ProgramText::new(p.name, p.text)),
-        mesh: mesh.map_or(MeshSource::Empty, |m| MeshSource::BuiltIn(m.name.to_owned())),
+        mesh: welcome_mesh(),
         rule: None,
         params: std::collections::BTreeMap::<String, Value>::new(),
         generation: if refined { 2 } else { 0 },
         style: Style { control: true, ..Style::default() },
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something
     }
+}
+
+/// Something for a program that needs a mesh.
+fn welcome_mesh() -> MeshSource {
+    let mesh = library::MESHES.iter().find(|m| m.name == "tetrapod.obj").or(library::MESHES.first());
+    mesh.map_or(MeshSource::Empty, |m| MeshSource::BuiltIn(m.name.to_owned()))
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{Context, Id, Key, Modal, RichText, TextEdit, Ui};
+use eframe::egui::{Context, Frame, Id, Key, Margin, Modal, RichText, TextEdit, Ui};
 
 use crate::command::{Answer, Command};
 use crate::session::{Dialog, Purpose, Session};
@@ -12,7 +12,8 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
     let name = session.document.program.name.clone();
     let Some(dialog) = &mut session.dialog else { return };
     let mut chosen = None;
-    let response = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+    let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
+    let response = Modal::new(Id::unique("dialog")).frame(frame).show(ctx, |ui| {
         ui.set_width(380.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         match dialog {
             Dialog::Unsaved { .. } => unsaved(ui, &name, commands),

@@ -52,8 +52,9 @@ fn parameters(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if program.params().next().is_none() {
         return;
     }
+    ui.add_space(4.0);
     ui.horizontal(|ui| {
-        heading(ui, "Parameters");
+        ui.label(RichText::new("Parameters").strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, session, commands, Command::ResetParams);
         });

@@ -1,11 +1,15 @@
 //! The menu bar.
 
+use std::path::Path;
+use std::sync::LazyLock;
+
 use eframe::egui::{MenuBar, Ui};
 
 use super::widgets::menu_item;
 use crate::command::{Command, Panel, ThemeChoice};
-use crate::document::MeshSource;
-use crate::library;
+use crate::document::{MeshSource, NOWHERE};
+use crate::files;
+use crate::library::{self, Shipped};
 use crate::session::{Purpose, Session};
 
 /// Shows it.
@@ -36,7 +40,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         });
         ui.menu_button("Examples", |ui| {
             ui.set_min_width(180.0);
-            for example in library::PROGRAMS {
+            for example in EXAMPLES.iter() {
                 let open = session.document.program.path.is_none() && session.document.program.name == example.name;
                 if ui.selectable_label(open, example.name).on_hover_text(headline(example.text)).clicked() {
                     commands.push(Command::OpenExample(example.name));
@@ -98,6 +102,15 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         });
     });
 }
+
+/// The programs that do something by themselves, which those made to be included do not.
+static EXAMPLES: LazyLock<Vec<&Shipped>> = LazyLock::new(|| {
+    let does_something = |shipped: &&Shipped| {
+        let (compilation, _) = files::compile(&Path::new(NOWHERE).join(shipped.name), shipped.text);
+        compilation.program.is_some_and(|program| !program.rules.is_empty() || program.start.is_some())
+    };
+    library::PROGRAMS.iter().filter(does_something).collect()
+});
 
 /// The first comment of a program.
 fn headline(text: &str) -> String {

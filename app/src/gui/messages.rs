@@ -4,6 +4,7 @@ use eframe::egui::{self, Align, Label, Layout, RichText, ScrollArea, Sense, Text
 use vv::diagnostic::Severity;
 
 use super::theme;
+use super::widgets::tab;
 use crate::command::Command;
 use crate::session::{Problem, Session};
 
@@ -29,17 +30,16 @@ impl Messages {
         ui.horizontal(|ui| {
             let all = problems.iter().count();
             let title = if all == 0 { "Problems".to_owned() } else { format!("Problems ({all})") };
-            let color = match (errors, warnings) {
-                (0, 0) => ui.visuals().text_color(),
-                (0, _) => ui.visuals().warn_fg_color,
-                _ => ui.visuals().error_fg_color,
-            };
-            let tab = ui.selectable_label(!self.console, RichText::new(title).color(color));
-            if tab.accessible_name("Problems").clicked() {
+            let mut title = RichText::new(title);
+            if errors + warnings > 0 {
+                let worst = if errors > 0 { Severity::Error } else { Severity::Warning };
+                title = title.color(theme::severity(ui.visuals(), worst));
+            }
+            if tab(ui, !self.console, title, "Problems").clicked() {
                 self.console = false;
             }
             let title = if lines == 0 { "Console".to_owned() } else { format!("Console ({lines})") };
-            if ui.selectable_label(self.console, title).accessible_name("Console").clicked() {
+            if tab(ui, self.console, title, "Console").clicked() {
                 self.console = true;
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -80,9 +80,10 @@ fn entry(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
     let mut text = egui::text::LayoutJob::default();
     let font = TextStyle::Body.resolve(ui.style());
     let format = |color| egui::TextFormat { font_id: font.clone(), color, ..Default::default() };
-    text.append("● ", 0.0, format(color));
-    text.append(&place, 0.0, format(ui.visuals().weak_text_color()));
-    text.append(&diagnostic.message, 0.0, format(ui.visuals().text_color()));
+    text.append("●", 0.0, format(color));
+    text.append(&place, 6.0, format(ui.visuals().weak_text_color()));
+    let space = if place.is_empty() { 6.0 } else { 0.0 };
+    text.append(&diagnostic.message, space, format(ui.visuals().text_color()));
     let response = ui.add(Label::new(text).sense(Sense::click()).selectable(false));
     let response = response.on_hover_cursor(egui::CursorIcon::PointingHand);
     if response.clicked()

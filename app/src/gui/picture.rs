@@ -9,6 +9,9 @@ use crate::camera::Camera;
 use crate::render::{RenderError, Renderer, Size, Target, Uploaded};
 use crate::scene::{Scene, Style};
 
+/// Smooth outlines; software drivers take a third longer for them.
+const SAMPLES: u32 = 4;
+
 /// Draws only when something has changed.
 pub struct Picture {
     state: RenderState,
@@ -27,9 +30,7 @@ impl Picture {
     /// # Errors
     /// If the driver refuses a pipeline.
     pub fn new(state: RenderState) -> Result<Self, RenderError> {
-        // Software drivers take a third longer for smooth outlines.
-        let software = state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let renderer = Renderer::new(&state.device, &state.queue, if software { 1 } else { 4 })?;
+        let renderer = Renderer::new(&state.device, &state.queue, SAMPLES)?;
         Ok(Self { state, renderer, target: None, texture: None, uploaded: None, drawn: None, drawings: 0 })
     }
 

@@ -118,7 +118,7 @@ fn light() -> Visuals {
 
 /// The frame of menu and tool bar.
 pub fn bar(ui: &Ui) -> Frame {
-    Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(8, 4))
+    Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(12, 4))
 }
 
 /// The frame of a side panel.

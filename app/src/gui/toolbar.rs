@@ -1,10 +1,10 @@
-//! Generations, the rule, and what the worker is doing.
+//! Generations, the rule, and which panels are open.
 
-use eframe::egui::{Align, ComboBox, DragValue, Layout, RichText, Spinner, Ui};
+use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui};
 
-use super::widgets::{Icon, icon_button, seconds, tooltip};
-use crate::command::Command;
-use crate::session::{Session, Stale};
+use super::widgets::{Icon, icon_button, tab, tooltip};
+use crate::command::{Command, Panel};
+use crate::session::Session;
 
 /// Shows them.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -29,7 +29,9 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         generation(ui, session, commands);
         ui.add_space(8.0);
         rule(ui, session, commands);
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| progress(ui, session));
+        if ui.available_width() > 240.0 {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| panels(ui, session, commands));
+        }
     });
 }
 
@@ -57,25 +59,13 @@ fn rule(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     response.response.labelled_by(label.id).on_hover_text("the function that a step applies");
 }
 
-fn progress(ui: &mut Ui, session: &Session) {
-    match session.progress() {
-        // What is done at once needs no announcement.
-        Some((elapsed, generation)) if elapsed > 0.15 => {
-            ui.label(match generation {
-                Some(generation) => format!("generation {generation}, {}", seconds(elapsed)),
-                None => format!("reading, {}", seconds(elapsed)),
-            });
-            ui.add(Spinner::new().size(15.0));
-            ui.label("running");
+/// Which panels are open; from right to left.
+fn panels(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    for (panel, text) in [(Panel::Inspector, "Inspector"), (Panel::Messages, "Messages"), (Panel::Program, "Program")] {
+        let command = Command::Toggle(panel);
+        let response = tab(ui, session.panels.is_open(panel), text, command.describe().label);
+        if response.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
+            commands.push(command);
         }
-        _ => match session.stale() {
-            Some(Stale::Failed(_)) => {
-                ui.label(RichText::new("error").color(ui.visuals().error_fg_color));
-            }
-            Some(Stale::Stopped) => {
-                ui.label(RichText::new("stopped").color(ui.visuals().warn_fg_color));
-            }
-            None => {}
-        },
     }
 }

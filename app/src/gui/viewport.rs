@@ -165,9 +165,14 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
         small,
         visuals.weak_text_color(),
     );
-    if let Some((elapsed, _)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
-        let text = format!("running… {}", seconds(elapsed));
+    // What is done at once needs no announcement.
+    if let Some((elapsed, generation)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
+        let what = generation.map_or("reading".to_owned(), |g| format!("computing generation {g}"));
+        let text = format!("{what}, {} …", seconds(elapsed));
         pill(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, &text, visuals.hyperlink_color);
+    }
+    if ui.input(|i| !i.raw.hovered_files.is_empty()) {
+        pill(ui, rect.center(), Align2::CENTER_CENTER, "drop to open", visuals.hyperlink_color);
     }
     if let Some((severity, text)) = session.notice() {
         let color = match severity {
@@ -180,21 +185,28 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
 
 /// A sign at the upper edge that cannot be overlooked.
 fn badge(ui: &mut Ui, rect: Rect, color: Color32, title: &str, text: &str) {
-    let width = (rect.width() - 40.0).clamp(60.0, 520.0);
-    let area = Rect::from_center_size(pos2(rect.center().x, rect.top()), vec2(width, 0.0));
-    let builder = egui::UiBuilder::new()
-        .max_rect(Rect::from_min_size(area.min + vec2(0.0, 12.0), vec2(width, rect.height() - 24.0)))
-        .layout(egui::Layout::top_down(egui::Align::Center));
+    let most = (rect.width() - 68.0).clamp(60.0, 520.0);
+    let body = TextStyle::Body.resolve(ui.style());
+    // As wide as the text, if there is room.
+    let wanted = [title, text].map(|t| ui.painter().layout_no_wrap(t.to_owned(), body.clone(), color).size().x);
+    let width = (wanted[0].max(wanted[1]) + 1.0).min(most);
+    let padding = Margin::symmetric(14, 8);
+    let outer = vec2(width + padding.sum().x + 3.0, rect.height() - 24.0);
+    let min = pos2(rect.center().x - outer.x / 2.0, rect.top() + 12.0);
+    let builder = egui::UiBuilder::new().max_rect(Rect::from_min_size(min, outer));
     ui.scope_builder(builder, |ui| {
         egui::Frame::NONE
             .fill(ui.visuals().window_fill)
             .stroke(egui::Stroke::new(1.5, color))
             .corner_radius(CornerRadius::same(7))
-            .inner_margin(Margin::symmetric(14, 8))
+            .inner_margin(padding)
             .show(ui, |ui| {
-                ui.spacing_mut().item_spacing.y = 2.0;
-                ui.label(egui::RichText::new(title).color(color).strong());
-                ui.add(egui::Label::new(text).wrap());
+                ui.set_width(width);
+                ui.vertical_centered(|ui| {
+                    ui.spacing_mut().item_spacing.y = 2.0;
+                    ui.label(egui::RichText::new(title).color(color).strong());
+                    ui.add(egui::Label::new(text).wrap());
+                });
             });
     });
 }

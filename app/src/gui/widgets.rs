@@ -1,7 +1,9 @@
 //! Small parts that several panels use.
 
+use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Button, Color32, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
+    Button, Color32, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextFormat, TextStyle, Ui,
+    Vec2, WidgetInfo, vec2,
 };
 
 use crate::command::Command;
@@ -82,18 +84,24 @@ pub fn tooltip(ui: &mut Ui, command: &Command) {
     });
 }
 
-/// A command as an entry of a menu.
+/// A command as an entry of a menu; a switch that is on has a tick before it.
 pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command) {
+    const TICK: f32 = 22.0;
     let description = command.describe();
     let keys = description.shortcuts.first().map(|s| ui.ctx().format_shortcut(s)).unwrap_or_default();
     let on = command.is_on(session);
-    let text = match on {
-        Some(true) => format!("✔  {}", description.label),
-        Some(false) => format!("      {}", description.label),
-        None => description.label.to_owned(),
-    };
+    let mut text = LayoutJob::default();
+    let font = TextStyle::Button.resolve(ui.style());
+    let space = if on.is_some() { TICK } else { 0.0 };
+    text.append(description.label, space, TextFormat::simple(font, Color32::PLACEHOLDER));
     let button = Button::new(text).shortcut_text(keys);
     let response = ui.add_enabled(command.is_enabled(session), button).accessible_name(description.label);
+    if on == Some(true) {
+        let center = response.rect.left_center() + vec2(ui.spacing().button_padding.x + 6.0, 0.0);
+        let points = [vec2(-4.5, 0.0), vec2(-1.5, 3.5), vec2(5.0, -4.0)].map(|d| center + d);
+        let stroke = Stroke::new(1.6, ui.style().interact(&response).text_color());
+        ui.painter().add(Shape::line(points.to_vec(), stroke));
+    }
     if response.on_hover_text(description.tooltip).clicked() {
         commands.push(command);
         ui.close();
@@ -115,6 +123,19 @@ pub fn switch(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, comma
     if response.changed() {
         commands.push(command);
     }
+}
+
+/// A tab or a switch that is on most of the time: marked without shouting.
+pub fn tab(ui: &mut Ui, on: bool, text: impl Into<RichText>, name: &str) -> Response {
+    ui.scope(|ui| {
+        let visuals = ui.visuals_mut();
+        visuals.selection.bg_fill = visuals.widgets.inactive.bg_fill;
+        visuals.selection.stroke = visuals.widgets.inactive.fg_stroke;
+        let text = text.into();
+        let text = if on { text } else { text.weak() };
+        ui.selectable_label(on, text).accessible_name(name)
+    })
+    .inner
 }
 
 /// The heading of a part of a panel.

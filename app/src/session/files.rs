@@ -63,6 +63,13 @@ impl Session {
     }
 
     pub(super) fn set_program(&mut self, program: ProgramText) {
+        let (compilation, _) = files::compile(&program.path_or_name(), &program.text);
+        let builds_its_own = compilation.program.map(|p| p.start.is_some());
+        self.document.mesh = match (&self.document.mesh, builds_its_own) {
+            (MeshSource::BuiltIn(_), Some(true)) => MeshSource::Empty,
+            (MeshSource::Empty, Some(false)) => super::welcome_mesh(),
+            (mesh, _) => mesh.clone(),
+        };
         self.document.program = program;
         self.document.rule = None;
         self.document.params.clear();

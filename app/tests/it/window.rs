@@ -347,6 +347,20 @@ fn examples_and_meshes_are_chosen_from_menus() {
 }
 
 #[test]
+fn a_program_that_builds_its_own_mesh_is_given_none_and_one_that_needs_one_gets_it_back() {
+    let mut window = octahedron();
+    choose(&mut window, "Examples", "mountain.vv");
+    assert_eq!(window.state().session().document.mesh, MeshSource::Empty);
+    assert!(faces(&window) > 0);
+    choose(&mut window, "Examples", "loop.vv");
+    assert!(matches!(window.state().session().document.mesh, MeshSource::BuiltIn(_)));
+    assert!(faces(&window) > 0);
+    window.get_by_label("Examples").click();
+    window.run_steps(4);
+    assert!(window.query_by_label("insert.vv").is_none(), "no example: it only serves others");
+}
+
+#[test]
 fn unsaved_text_is_asked_about_before_it_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.vv");
