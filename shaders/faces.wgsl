@@ -10,7 +10,7 @@
 
 const UP = vec3(0.0, 0.98, 0.2);
 const SKY = vec3(0.40, 0.43, 0.48);
-const GROUND = vec3(0.17, 0.155, 0.15);
+const GROUND = vec3(0.19, 0.18, 0.18);
 const KEY_DIRECTION = vec3(-0.58, 0.52, 0.627);
 const KEY = vec3(0.88, 0.85, 0.80);
 const FILL_DIRECTION = vec3(0.78, -0.05, 0.62);

@@ -33,7 +33,7 @@ pub struct Ray {
 const FIELD_OF_VIEW: f64 = 0.5;
 
 /// How much room a fitted ball leaves around itself.
-const MARGIN: f64 = 1.08;
+const MARGIN: f64 = 1.1;
 
 /// Zooming stops when this many times as near, or as far, as the radius of what is looked at.
 const NEAREST: f64 = 1e-4;
@@ -60,6 +60,31 @@ impl Camera {
         let half = (self.field_of_view / 2.0).tan();
         let narrower = (half * aspect.clamp(1e-3, 1.0)).atan();
         Self { pivot: bounds.center, distance: MARGIN * radius(bounds) / narrower.sin(), ..self }
+    }
+
+    /// Looks from the same side so that these points just fit, with a margin: closer than [`Camera::fit`] where they fill
+    /// their ball badly. Turns around the depth of `bounds`' centre from then on. Without points it is [`Camera::fit`].
+    ///
+    /// A point (x, y, z) in view directions is seen from an eye (a, b, c) if `|x − a| ≤ s (c − z)`, s the slope of the
+    /// sides, and so with y. The nearest such eye has `a = (r − l)/2` and `c = (r + l)/2s`, where `r = max(x + s z)` and
+    /// `l = max(−x + s z)`; of the two c that x and y ask for, the greater one holds.
+    #[must_use]
+    pub fn fit_points(self, points: impl IntoIterator<Item = DVec3>, bounds: Sphere, aspect: f64) -> Self {
+        let upright = (self.field_of_view / 2.0).tan() / MARGIN;
+        let slope = DVec2::new(upright * aspect.max(1e-3), upright);
+        let view_from_world = self.world_from_view.conjugate();
+        let (mut positive, mut negative) = (DVec2::NEG_INFINITY, DVec2::NEG_INFINITY);
+        for point in points {
+            let p = view_from_world * (point - bounds.center);
+            positive = positive.max(p.truncate() + slope * p.z);
+            negative = negative.max(slope * p.z - p.truncate());
+        }
+        let distance = ((positive + negative) / (2.0 * slope)).max_element();
+        if !(distance > radius(bounds) * NEAREST && distance.is_finite()) {
+            return self.fit(bounds, aspect);
+        }
+        let shift = (positive - negative) / 2.0;
+        Self { pivot: bounds.center + self.world_from_view * shift.extend(0.0), distance, ..self }
     }
 
     /// The arcball: turns the view so that what is under `from` follows the pointer to `to`.
@@ -206,6 +231,30 @@ mod tests {
             let rim = sine / (1.0 - sine * sine).sqrt() / (camera.field_of_view / 2.0).tan();
             assert!((0.9..1.0).contains(&(rim / aspect.min(1.0))), "{rim} of {aspect}");
         }
+    }
+
+    #[test]
+    fn fitted_points_touch_the_margin_on_two_opposite_sides() {
+        let points = [DVec3::ZERO, DVec3::X, DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, 4.0, 1.0), DVec3::NEG_Z];
+        for aspect in [0.3, 1.0, 2.0, 5.0] {
+            let camera = camera().fit_points(points, BOUNDS, aspect);
+            let places = points.map(|p| {
+                let clip = camera.clip_from_view(aspect) * camera.view_from_world() * p.extend(1.0);
+                DVec2::new(clip.x, clip.y) / clip.w * MARGIN
+            });
+            let high = places.into_iter().fold(DVec2::NEG_INFINITY, DVec2::max);
+            let low = places.into_iter().fold(DVec2::INFINITY, DVec2::min);
+            let touches = |low: f64, high: f64| (low + 1.0).abs() < 1e-9 && (high - 1.0).abs() < 1e-9;
+            assert!(high.max_element() < 1.0 + 1e-9 && low.min_element() > -1.0 - 1e-9, "{low} {high}");
+            assert!(touches(low.x, high.x) || touches(low.y, high.y), "{low} {high}");
+        }
+    }
+
+    #[test]
+    fn without_points_to_fit_the_ball_is() {
+        assert_eq!(camera().fit_points([], BOUNDS, 2.0), camera());
+        let one = Sphere { center: DVec3::X, radius: 0.0 };
+        assert_eq!(camera().fit_points([DVec3::X], one, 2.0), camera().fit(one, 2.0));
     }
 
     #[test]

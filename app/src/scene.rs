@@ -14,6 +14,7 @@ mod triangulate;
 
 use glam::{DVec3, Vec3};
 
+use crate::camera::Camera;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 
@@ -144,6 +145,22 @@ impl Scene {
     #[must_use]
     pub fn bounds(&self, style: &Style) -> Sphere {
         if style.control { self.bounds_with_control } else { self.bounds }
+    }
+
+    /// The standard view of what `style` shows, as close as it gets.
+    #[must_use]
+    pub fn standard_view(&self, style: &Style, aspect: f64) -> Camera {
+        self.fit(Camera::standard(self.bounds(style), aspect), style, aspect)
+    }
+
+    /// `camera` looking from the same side at all that `style` shows, as close as it gets.
+    #[must_use]
+    pub fn fit(&self, camera: Camera, style: &Style, aspect: f64) -> Camera {
+        let control = style.control.then_some(&self.control);
+        let parts = std::iter::once(&self.mesh).chain(control);
+        let corners = parts.flat_map(|part| &part.corners[..part.vertex_count as usize]);
+        let points = corners.map(|corner| self.to_world(corner.position.into()));
+        camera.fit_points(points, self.bounds(style), aspect)
     }
 
     /// World position of a point of the scene.

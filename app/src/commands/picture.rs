@@ -2,7 +2,6 @@
 
 use std::io::Cursor;
 
-use app::camera::Camera;
 use app::render::{self, RenderError};
 use app::scene::{Scene, Style};
 use image::{ImageFormat, RgbaImage};
@@ -46,7 +45,7 @@ pub fn picture(mesh: &Mesh, faces: &Faces, (width, height): Size, reporter: &Rep
     let style = Style::default();
     let size = render::Size::new(width, height);
     let scene = Scene::new(mesh, faces, None);
-    let camera = Camera::standard(scene.bounds(&style), size.aspect());
+    let camera = scene.standard_view(&style, size.aspect());
     render::render_image(&scene, &camera, &style, size).or_else(|problem| {
         let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
         let diagnostic = match problem {

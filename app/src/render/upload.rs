@@ -153,3 +153,32 @@ impl Upload<'_> {
         buffer
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_beyond_the_limits_is_refused_with_a_sentence() {
+        let corner = Corner { position: [0.0; 3], normal: 0, face_normal: 0 };
+        let mut scene = Scene::default();
+        scene.mesh.corners = vec![corner; 100];
+        scene.mesh.vertex_count = 50;
+        scene.mesh.triangles = vec![[0; 3]; 90];
+        let limits = |buffer, binding| wgpu::Limits {
+            max_buffer_size: buffer,
+            max_storage_buffer_binding_size: binding,
+            ..wgpu::Limits::default()
+        };
+        assert_eq!(Uploaded::check(&scene, &limits(2000, 1000)), Ok(()));
+        let refused = |limits| Uploaded::check(&scene, &limits).unwrap_err().to_string();
+        assert_eq!(
+            refused(limits(1999, 1000)),
+            "the mesh is too large to be drawn: 100 corners, where this graphics driver takes 99"
+        );
+        assert_eq!(
+            refused(limits(2000, 999)),
+            "the mesh is too large to be drawn: 50 vertices, where this graphics driver takes 49"
+        );
+    }
+}

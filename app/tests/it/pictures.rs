@@ -33,7 +33,7 @@ fn headless() -> &'static Headless {
 }
 
 fn standard(scene: &Scene, style: &Style) -> Camera {
-    Camera::standard(scene.bounds(style), SIZE.aspect())
+    scene.standard_view(style, SIZE.aspect())
 }
 
 fn draw(scene: &Scene, style: &Style) -> RgbaImage {
