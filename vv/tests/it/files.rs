@@ -135,6 +135,14 @@ fn more_than_two_faces_along_an_edge_get_vertices_of_their_own() {
            edge v1–v3: face 2 (line 7), face 3 (line 8), face 5 (line 10)\n  \
            edge v2–v3: face 1 (line 6), face 2 (line 7), face 3 (line 8)",
     );
+    check_faces(
+        "1 2 3 / 2 3 4 / 4 1 2 / 3 1 4 / 2 1 3",
+        "1 2 3 / 4 5 6 / 4 6 7 / 4 7 5 / 5 7 6\n\
+         Warning: 3 edges have more than two faces; 3 vertices were duplicated so that every face is kept\n  \
+           edge v1–v2: face 1 (line 6), face 3 (line 8), face 5 (line 10)\n  \
+           edge v1–v3: face 1 (line 6), face 4 (line 9), face 5 (line 10)\n  \
+           edge v2–v3: face 1 (line 6), face 2 (line 7), face 5 (line 10)",
+    );
     // A fan that goes round twice: however its faces are paired a ring would name a vertex twice, so they come apart.
     check_faces(
         "1 2 3 / 4 5 2 4 5 / 4 3 2 / 5 4 2 / 5 2 6",

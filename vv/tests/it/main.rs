@@ -10,6 +10,7 @@
 mod files;
 mod manual;
 mod mesh;
+mod rings;
 mod run;
 mod shapes;
 

@@ -4,6 +4,7 @@ use super::super::validate::vertices;
 use super::super::{EditError, Mesh, Vertex};
 use super::edges::{Edges, NONE, next, previous};
 use super::{BuildError, DRAWN, Polygons, Report, full, quote, vertex_name, warning};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::stop::{Stop, Stopped};
 
 /// How often single faces are set apart before all faces along crowded edges are.
@@ -33,7 +34,7 @@ struct Fans {
 /// Makes the mesh from oriented polygons.
 pub(super) fn mesh(polygons: &Polygons, edges: &Edges, report: &mut Report, stop: &Stop) -> Result<Mesh, BuildError> {
     let mut apart = vec![false; polygons.len()];
-    for round in 0.. {
+    for round in 0..ROUNDS + 2 {
         let (pairs, crowded) = edges.pairs(polygons, &apart, stop)?;
         let mut tangled = vec![false; polygons.positions.len()];
         for &h in crowded.iter().copied().flatten() {
@@ -47,7 +48,7 @@ pub(super) fn mesh(polygons: &Polygons, edges: &Edges, report: &mut Report, stop
                 return Ok(mesh);
             }
             Rings::Parallel(faces) if round < ROUNDS => faces.into_iter().for_each(|f| apart[f as usize] = true),
-            // Then no face that touches a crowded edge has a neighbour, so no ring can name a vertex twice.
+            // Then no face that touches a crowded edge has a neighbour, so no ring can name a vertex twice any more.
             Rings::Parallel(_) => {
                 for (f, apart) in apart.iter_mut().enumerate() {
                     *apart |= polygons.face(f).iter().any(|&v| tangled[v as usize]);
@@ -55,7 +56,9 @@ pub(super) fn mesh(polygons: &Polygons, edges: &Edges, report: &mut Report, stop
             }
         }
     }
-    Err(full())
+    // Not reached, see above; an error is better than trying for ever.
+    let message = "some faces run along an edge so often that they cannot be told apart";
+    Err(BuildError::refused(None, Diagnostic::new(Severity::Error, None, message)))
 }
 
 enum Rings {
