@@ -1,5 +1,6 @@
 //! What is said to the user: one sentence at a place, with evidence and, where it can be guessed, a fix.
 
+mod excerpt;
 mod human;
 mod machine;
 #[cfg(test)]

@@ -72,19 +72,28 @@ impl SourceFile {
         while !self.text.is_char_boundary(offset) {
             offset -= 1;
         }
-        let line = self.line_starts.partition_point(|&start| start as usize <= offset).max(1);
-        let start = self.line_starts[line - 1] as usize;
+        let index = self.line_index(offset);
+        let start = self.line_starts[index] as usize;
         let column = self.text[start..offset].chars().count() as u32 + 1;
-        Position { line: line as u32, column }
+        Position { line: index as u32 + 1, column }
+    }
+
+    /// The line, counted from 0, that holds `offset` (in bytes).
+    pub(crate) fn line_index(&self, offset: usize) -> usize {
+        self.line_starts.partition_point(|&start| start as usize <= offset).saturating_sub(1)
+    }
+
+    /// Where the line `index`, counted from 0, stands in the text, without its end; `None` past the end.
+    pub(crate) fn line_range(&self, index: usize) -> Option<std::ops::Range<usize>> {
+        let start = *self.line_starts.get(index)? as usize;
+        let end = self.line_starts.get(index + 1).map_or(self.text.len(), |&e| e as usize - 1);
+        Some(start..start + self.text[start..end].trim_end_matches('\r').len())
     }
 
     /// The bytes of line `line` (from 1) without its end; `None` past the end.
     #[must_use]
     pub fn line(&self, line: u32) -> Option<&str> {
-        let index = (line as usize).checked_sub(1)?;
-        let start = *self.line_starts.get(index)? as usize;
-        let end = self.line_starts.get(index + 1).map_or(self.text.len(), |&e| e as usize - 1);
-        Some(self.text[start..end].trim_end_matches('\r'))
+        self.line_range((line as usize).checked_sub(1)?).map(|range| &self.text[range])
     }
 }
 

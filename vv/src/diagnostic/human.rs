@@ -3,28 +3,30 @@
 use std::borrow::Cow;
 
 use codespan_reporting::diagnostic as codespan;
-use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::termcolor::{Ansi, NoColor};
 use codespan_reporting::term::{self, Config};
 
+use super::excerpt::Excerpts;
 use super::{Diagnostic, Severity};
 use crate::source::{Sources, Span};
 
 /// Calls of a run-time error that are shown; of more than that only the innermost and the outermost.
 const MOST_CALLS: usize = 8;
 
+/// Characters of a fact that are shown, such as of the ring of a vertex with thousands of neighbours.
+const MOST_SIGNS: usize = 400;
+
 /// Vertices that are listed.
 const MOST_VERTICES: usize = 10;
 
 pub(super) fn render(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
-    let mut files = SimpleFiles::new();
-    for file in sources.files() {
-        files.add(printable(&file.name).into_owned(), printable(&file.text));
-    }
     let config = Config::default();
     let mut written = Vec::new();
     for diagnostic in diagnostics {
-        let shown = convert(diagnostic, sources);
+        let marks = marks(diagnostic);
+        let spans: Vec<Span> = marks.iter().map(|mark| mark.span).collect();
+        let files = Excerpts::new(sources, &spans);
+        let shown = convert(diagnostic, &marks, &files);
         let before = written.len();
         let result = if color {
             term::emit_to_write_style(&mut Ansi::new(&mut written), &config, &files, &shown)
@@ -58,42 +60,72 @@ pub(super) fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(replace).collect())
 }
 
-fn convert(diagnostic: &Diagnostic, sources: &Sources) -> codespan::Diagnostic<usize> {
+/// A place that is shown, with what is said there.
+struct Mark {
+    style: codespan::LabelStyle,
+    span: Span,
+    message: String,
+    /// How often the same is said there.
+    times: usize,
+}
+
+/// What is shown of a message, the most important first.
+fn marks(diagnostic: &Diagnostic) -> Vec<Mark> {
+    let mut marks: Vec<Mark> = Vec::new();
+    let mut mark = |style, span, message: String| {
+        let same = marks.iter_mut().find(|mark| mark.span == span && mark.style == style && mark.message == message);
+        match same {
+            Some(same) => same.times += 1,
+            None => marks.push(Mark { style, span, message, times: 1 }),
+        }
+    };
+    if let Some(span) = diagnostic.span {
+        mark(codespan::LabelStyle::Primary, span, String::new());
+    }
+    for (span, message) in &diagnostic.labels {
+        mark(codespan::LabelStyle::Secondary, *span, message.clone());
+    }
+    let calls = &diagnostic.calls;
+    for (i, (function, span)) in calls.iter().enumerate() {
+        if i + 1 < MOST_CALLS || i + 1 == calls.len() {
+            mark(codespan::LabelStyle::Secondary, *span, format!("`{function}` is called from here"));
+        }
+    }
+    marks
+}
+
+fn convert(diagnostic: &Diagnostic, marks: &[Mark], files: &Excerpts<'_>) -> codespan::Diagnostic<usize> {
     let severity = match diagnostic.severity {
         Severity::Note => codespan::Severity::Note,
         Severity::Warning => codespan::Severity::Warning,
         Severity::Error => codespan::Severity::Error,
     };
-    let mut labels = Vec::new();
-    let mut notes = Vec::new();
-    let mut label = |style, span: Span, message: String| {
-        if let Some(range) = range(span, sources) {
-            let label = codespan::Label::new(style, span.file.0 as usize, range);
-            labels.push(label.with_message(printable(&message).into_owned()));
-        }
+    let label = |mark: &Mark| {
+        let message = match mark.times {
+            1 => mark.message.clone(),
+            n => format!("{}, {n} times", mark.message),
+        };
+        let label = codespan::Label::new(mark.style, mark.span.file.0 as usize, files.range(mark.span)?);
+        Some(label.with_message(printable(&message)))
     };
-    if let Some(span) = diagnostic.span {
-        label(codespan::LabelStyle::Primary, span, String::new());
-    }
-    for (span, message) in &diagnostic.labels {
-        label(codespan::LabelStyle::Secondary, *span, message.clone());
-    }
-    let calls = &diagnostic.calls;
-    for (i, (function, span)) in calls.iter().enumerate() {
-        if i + 1 < MOST_CALLS || i + 1 == calls.len() {
-            label(codespan::LabelStyle::Secondary, *span, format!("`{function}` is called from here"));
-        }
-    }
-    notes.extend(diagnostic.evidence.iter().cloned());
-    if calls.len() > MOST_CALLS {
-        notes.push(format!("{} more calls are open between these", calls.len() - MOST_CALLS));
+    let mut notes = diagnostic.evidence.clone();
+    let calls = diagnostic.calls.len();
+    if calls > MOST_CALLS {
+        notes.push(format!("{} more calls are open between these", calls - MOST_CALLS));
     }
     notes.extend(vertices(diagnostic));
     notes.extend(diagnostic.hints.iter().map(|hint| format!("help: {}", hint.message)));
     codespan::Diagnostic::new(severity)
         .with_message(printable(&diagnostic.message))
-        .with_labels(labels)
-        .with_notes(notes.iter().map(|note| printable(note).into_owned()).collect())
+        .with_labels(marks.iter().filter_map(label).collect())
+        .with_notes(notes.iter().map(|note| brief(&printable(note))).collect())
+}
+
+fn brief(note: &str) -> String {
+    match note.char_indices().nth(MOST_SIGNS) {
+        Some((end, _)) => format!("{}…", &note[..end]),
+        None => note.to_owned(),
+    }
 }
 
 /// The vertices that the sentences do not name anyway.
@@ -108,15 +140,4 @@ fn vertices(diagnostic: &Diagnostic) -> Option<String> {
         n if n > MOST_VERTICES => Some(format!("at {list} and {} more", n - MOST_VERTICES)),
         _ => Some(format!("at {list}")),
     }
-}
-
-/// The bytes of a span, moved into its text and onto whole characters.
-fn range(span: Span, sources: &Sources) -> Option<std::ops::Range<usize>> {
-    let text = &sources.file(span.file)?.text;
-    let floor = |offset: u32| {
-        let offset = (offset as usize).min(text.len());
-        (0..=offset).rev().find(|&o| text.is_char_boundary(o)).unwrap_or(0)
-    };
-    let (start, end) = (floor(span.start), floor(span.end));
-    Some(start..end.max(start))
 }

@@ -192,3 +192,47 @@ fn any_span_is_survived() {
         }
     }
 }
+
+#[test]
+fn of_a_long_line_the_part_around_the_mark_is_shown() {
+    let mut sources = Sources::default();
+    let text = format!("{}wrong{}\nnext\n", "é; ".repeat(1_000_000), " ;".repeat(1_000_000));
+    let start = text.find("wrong").expect("it is there") as u32;
+    let file = sources.add("long.vv", text);
+    let diagnostic = Diagnostic::error(Span::new(file, start, start + 5), "what is this")
+        .label(Span::new(file, 0, 2), "far to the left")
+        .label(Span::new(file, start + 6, start + 1_000_000), "and on to the right");
+    let text = render(&[diagnostic], &sources, Form::Human { color: false });
+    assert!(text.contains("long.vv:1:3000001\n"), "{text}");
+    assert!(text.contains("│ …é; é;") && text.contains("é; wrong ; ;") && text.contains(" ; …\n"), "{text}");
+    assert!(text.contains("^^^^^ ------"), "{text}");
+    assert!(text.contains("far to the left") && text.contains("and on to the right"), "{text}");
+    assert!(text.len() < 3000, "{text}");
+}
+
+#[test]
+fn long_facts_are_cut_for_people_but_not_for_programs() {
+    let ring = format!("ring of v1: {}", "v2 ".repeat(10_000));
+    let diagnostic = Diagnostic::new(Severity::Error, None, "too many neighbours").evidence(ring.clone());
+    let people = render(std::slice::from_ref(&diagnostic), &sources(), Form::Human { color: false });
+    assert!(people.contains("ring of v1: v2 v2") && people.contains("…") && people.len() < 600, "{people}");
+    assert!(render(&[diagnostic], &sources(), Form::Json).contains(&ring));
+}
+
+#[test]
+fn what_is_said_twice_at_a_place_is_said_once() {
+    let mut diagnostic = Diagnostic::error(span(INSERT, "insert(p);"), "more than 3 calls are open at once");
+    diagnostic.calls = vec![("insert".into(), span(INSERT, "insert(p);")); 3];
+    human(
+        &diagnostic,
+        r"
+error: more than 3 calls are open at once
+  ┌─ insert.vv:2:7
+  │
+2 │   x = insert(p);
+  │       ^^^^^^^^^^
+  │       │
+  │       `insert` is called from here, 3 times
+",
+    );
+}
