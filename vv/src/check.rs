@@ -28,7 +28,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::ir::{Function, FunctionId, Global, GlobalId, Program, PropertyDeclaration};
 use crate::mesh::Value;
 use crate::source::{FileId, Sources, Span};
@@ -36,6 +36,9 @@ use crate::syntax::tree::{Ast, Element};
 
 use body::Body;
 use declare::Signature;
+
+/// Diagnostics that are shown.
+const MOST_DIAGNOSTICS: usize = 100;
 
 /// Checks the files of a program, included ones first, its own file ([`FileId::MAIN`]) last. The program may be run
 /// only if no diagnostic is an error. A `const T&` is passed as a `T` that cannot be changed.
@@ -57,7 +60,20 @@ pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)]) -> (Program, Vec<Di
         mesh_properties: checker.mesh_properties.declarations,
         sources: Arc::clone(&sources),
     };
-    (program, checker.diagnostics)
+    (program, most_important(checker.diagnostics))
+}
+
+/// The diagnostics that are shown: of very many the errors before the warnings, in the order in which they were found.
+fn most_important(diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    if diagnostics.len() <= MOST_DIAGNOSTICS {
+        return diagnostics;
+    }
+    let (mut shown, others): (Vec<_>, Vec<_>) = diagnostics.into_iter().partition(|d| d.severity == Severity::Error);
+    shown.truncate(MOST_DIAGNOSTICS);
+    let room = MOST_DIAGNOSTICS - shown.len();
+    shown.extend(others.into_iter().take(room));
+    shown.push(Diagnostic::new(Severity::Note, None, "there are more errors or warnings than are shown here"));
+    shown
 }
 
 struct Checker<'a> {

@@ -62,7 +62,8 @@ pub fn compile(name: &str, text: &str, include: &mut dyn FnMut(&str, &str) -> Re
     let sources = Arc::new(sources);
     let (program, more) = check::check(Arc::clone(&sources), &files);
     diagnostics.extend(more);
-    diagnostics.sort_by_key(|d| d.span.map(|s| (s.file, s.start, s.end)));
+    // What has no place speaks of all that has one, and comes last.
+    diagnostics.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start, s.end))));
     let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
     Compilation { sources, program: (!failed).then(|| Arc::new(program)), diagnostics }
 }

@@ -105,7 +105,12 @@ impl<'a> Checker<'a> {
         let names = own.into_iter().chain(builtins);
         let error = match nearest(name, names) {
             Some(near) => error.fix(format!("did you mean `{near}`?"), span, near),
-            None => error,
+            None => match name {
+                "insert" => error.hint("one comes with vv: `#include \"insert.vv\"`"),
+                "vertex" => error.hint("`vertex v;` creates a vertex"),
+                "size" | "count" | "len" => error.hint("count in a loop: `int n = 0; forall v in S n += 1;`"),
+                _ => error,
+            },
         };
         self.report(error);
     }

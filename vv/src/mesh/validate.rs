@@ -128,8 +128,7 @@ fn describe(findings: &[Finding], mesh: &Mesh) -> Diagnostic {
         }
         Finding::NotFinite { .. } => {
             let are = if n == 1 { "is infinite or not a number" } else { "are infinite or not numbers" };
-            format!("the positions of {} {are}", count(n, if n == 1 { "vertex" } else { "vertices" }))
-                .replace("the positions of 1", "the position of 1")
+            format!("the positions of {} {are}", vertices(n)).replace("the positions of 1", "the position of 1")
         }
         Finding::Ring { .. } => format!("the rings of {} are damaged", vertices(n)),
         Finding::Foreign { .. } => format!("the set holds {} that do not exist", vertices(n)),

@@ -147,12 +147,41 @@ fn the_deepest_nesting_is_checked() {
 }
 
 #[test]
-fn ten_thousand_functions_and_mistakes_are_all_told_apart() {
+fn of_ten_thousand_functions_with_mistakes_the_first_are_shown() {
     let mut text = String::new();
     for i in 0..10_000 {
         let called = i / 2;
         text += &format!("const int c{i} = {i};\n");
         text += &format!("int f{i}(int a) {{ int b = a + c{i}; return b + unknown{i} + f{called}(b); }}\n");
     }
-    assert_eq!(compiled(&text).diagnostics.len(), 10_000);
+    let diagnostics = compiled(&text).diagnostics;
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    let expected: Vec<_> = (0..100).map(|i| format!("`unknown{i}` is not declared")).collect();
+    assert_eq!(messages[..100], expected);
+    assert_eq!(messages[100..], ["there are more errors or warnings than are shown here"]);
+}
+
+#[test]
+fn of_very_many_mistakes_the_first_are_shown_and_errors_before_warnings() {
+    let declare = |i| format!("int unused{i} = 1;\n");
+    let text =
+        format!("void f(mesh& S) {{\n{}}}\nvoid g(mesh& S) {{ wrong; }}", (0..1000).map(declare).collect::<String>());
+    let c = compiled(&text);
+    let messages: Vec<&str> = c.diagnostics.iter().map(|d| d.message.as_str()).collect();
+    assert!(messages.contains(&"`wrong` is not declared") && messages.contains(&"`unused0` is never used"));
+    assert!(messages.contains(&"there are more errors or warnings than are shown here"));
+    assert!(messages.len() < 200, "{}", messages.len());
+}
+
+#[test]
+fn functions_that_people_expect_have_a_hint() {
+    for (call, hint) in [
+        ("vertex x = insert(p, p);", "one comes with vv: `#include \"insert.vv\"`"),
+        ("vertex x = vertex();", "`vertex v;` creates a vertex"),
+        ("int n = size(S);", "count in a loop: `int n = 0; forall v in S n += 1;`"),
+    ] {
+        let c = compiled(&format!("void f(mesh& S) {{ forall p in S {{ {call} }} }}"));
+        let hints: Vec<&str> = c.diagnostics.iter().flat_map(|d| &d.hints).map(|h| h.message.as_str()).collect();
+        assert!(hints.contains(&hint), "{call}: {hints:?}");
+    }
 }
