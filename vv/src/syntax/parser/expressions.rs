@@ -276,6 +276,7 @@ impl Parser<'_> {
             let message = "vv has no character literals; this sign marks old values";
             self.fail(Diagnostic::error(quoted, message).fix("write a string", quoted, format!("\"{text}\"")));
             self.bump();
+            return self.error_expression();
         }
         let span = self.span_at(start).to(of.expr.span);
         self.tall(ExprKind::Old(Box::new(of.expr)), span, of.height)
@@ -384,6 +385,17 @@ impl Parser<'_> {
         }
         let is_call = self.kind_at(start + 1) == Kind::OpenParen;
         let converts = is_call && words::reserved_type(word).is_some();
+        let next = self.kind_at(start + 1);
+        if word == "new" && next == Kind::Word && !self.token(start + 1).new_line {
+            let (message, hint) = words::foreign_construct(word).unwrap_or_default();
+            self.fail(Diagnostic::error(span, message).hint(hint));
+            return self.error_expression();
+        }
+        if matches!(word, "static_cast" | "dynamic_cast" | "reinterpret_cast") && next == Kind::Less {
+            let error = Diagnostic::error(span, "vv converts as a call does, not by a cast");
+            self.fail(error.hint("write `int(x)` or `double(n)`"));
+            return self.error_expression();
+        }
         if words::is_reserved(word) && !converts {
             self.unexpected("a value");
             return self.error_expression();

@@ -56,12 +56,16 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether a function with its body begins at a token: `type name(…) {`.
+    /// Whether a function with its body begins at a token: `type name(…) {`, `static` or not.
     pub(super) fn function_at(&self, at: usize) -> bool {
-        if !self.token(at).new_line || words::any_type(self.word_at(at)).is_none() {
+        if !self.token(at).new_line {
             return false;
         }
-        let name = at + 1;
+        let ty = if self.word_at(at) == "static" { at + 1 } else { at };
+        if words::any_type(self.word_at(ty)).is_none() {
+            return false;
+        }
+        let name = ty + 1;
         self.kind_at(name) == Kind::Word
             && self.kind_at(name + 1) == Kind::OpenParen
             && self.behind_parentheses(name + 1).is_some_and(|behind| self.kind_at(behind) == Kind::OpenBrace)

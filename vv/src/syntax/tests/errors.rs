@@ -627,7 +627,7 @@ fn further_cpp() {
         new p;
       //^^^ error: vv has neither `new` nor `delete` | `vertex v;` creates a vertex; a vertex that no mesh holds is forgotten
         x = new p;
-        //      ^ error: expected `;`, found `p` | vv has neither `new` nor `delete`
+        //  ^^^ error: vv has neither `new` nor `delete` | `vertex v;` creates a vertex; a vertex that no mesh holds is forgotten
         int i = 0, double y;
         //         ^^^^^^ error: the type stands once, before the first of several variables | leave it out
     "#,
@@ -999,4 +999,26 @@ fn what_was_read_before_a_mistake_stays() {
         parse(FileId::MAIN, "void f(mesh S&) { vertex x = insert(p q), y; forall p in ) { a; } b; }");
     assert_eq!(diagnostics.len(), 3);
     assert_eq!(super::sexpr::ast(&ast), "(fn void f (mesh S) (vertex (= x <error>) y) (forall p <error> (block a)) b)");
+}
+
+#[test]
+fn other_words_of_cpp_inside_values() {
+    check(
+        r#"
+        vertex a = new vertex;
+        //         ^^^ error: vv has neither `new` nor `delete` | `vertex v;` creates a vertex; a vertex that no mesh holds is forgotten
+        int i = static_cast<int>(2.5);
+        //      ^^^^^^^^^^^ error: vv converts as a call does, not by a cast | write `int(x)` or `double(n)`
+    "#,
+    );
+}
+
+#[test]
+fn a_missing_brace_before_a_static_function() {
+    let text =
+        "void step(mesh& S) {\n  forall p in S {\n}\nstatic int g(int a) { return a; }\nvoid f(mesh& S) { g(1); }\n";
+    let (ast, diagnostics) = parse(FileId::MAIN, text);
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.as_str()).collect();
+    assert_eq!(messages, ["this `{` is never closed"]);
+    assert_eq!(ast.items.len(), 3);
 }
