@@ -112,7 +112,7 @@ struct Importing {
     #[arg(long)]
     strict: bool,
     /// Time for each step with closing it, and for reading a mesh; 0 for as long as it takes.
-    #[arg(long, value_name = "SECONDS", default_value = "300", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "300", allow_negative_numbers = true, value_parser = seconds)]
     timeout: Timeout,
     /// How many vertices a mesh may have.
     #[arg(long, value_name = "N", default_value_t = vv::engine::Limits::default().max_vertices)]
@@ -171,11 +171,12 @@ fn warnings_of(diagnostics: &[Diagnostic]) -> Vec<String> {
 struct Timeout(Option<Duration>);
 
 fn seconds(text: &str) -> Result<Timeout, String> {
-    let seconds: f64 = text.parse().map_err(|_| "seconds are a number such as 300 or 0.5".to_owned())?;
+    let wanted = || "seconds are a number such as 300 or 0.5".to_owned();
+    let seconds: f64 = text.parse().map_err(|_| wanted())?;
     if seconds == 0.0 {
         return Ok(Timeout(None));
     }
-    Duration::try_from_secs_f64(seconds).map(|d| Timeout(Some(d))).map_err(|e| e.to_string())
+    Duration::try_from_secs_f64(seconds).map(|d| Timeout(Some(d))).map_err(|_| wanted())
 }
 
 /// The candidate that is most like `name`, if one is like it at all.

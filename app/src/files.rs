@@ -2,7 +2,7 @@
 
 mod writing;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -129,6 +129,8 @@ struct Includes {
     /// Name of each file by its canonical path: one file has one name, so that cycles end.
     names: HashMap<PathBuf, String>,
     looked_at: Vec<PathBuf>,
+    /// The same, to find them.
+    known: HashSet<PathBuf>,
 }
 
 impl Includes {
@@ -139,7 +141,8 @@ impl Includes {
             names.insert(canonical, name.to_owned());
         }
         let looked_at = if is_standard_stream(path) { Vec::new() } else { vec![path.to_owned()] };
-        Self { paths: HashMap::from([(name.to_owned(), base.to_owned())]), names, looked_at }
+        let known = looked_at.iter().cloned().collect();
+        Self { paths: HashMap::from([(name.to_owned(), base.to_owned())]), names, looked_at, known }
     }
 
     fn find(&mut self, from: &str, wanted: &str) -> Result<Included, String> {
@@ -148,7 +151,7 @@ impl Includes {
             return library::include(wanted).ok_or_else(|| format!("vv ships with no program `{wanted}`"));
         };
         let path = from_path.parent().unwrap_or(Path::new("")).join(wanted);
-        if !self.looked_at.contains(&path) {
+        if self.known.insert(path.clone()) {
             self.looked_at.push(path.clone());
         }
         if path.symlink_metadata().is_err_and(|e| matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)) {
@@ -177,7 +180,13 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagno
     }
     let format = named.unwrap_or_else(|| sniff(&bytes));
     let (mesh, warnings) = vv::io::read(&bytes, format, options).map_err(|error| match error {
-        ReadError::Invalid { line, diagnostic } => FileError { path: path.to_owned(), line, diagnostic },
+        ReadError::Invalid { line, diagnostic } => {
+            let error = FileError { path: path.to_owned(), line, diagnostic };
+            match misnamed(&bytes, format) {
+                Some(other) => error.hint(format!("it looks like {other}, which its name should end in")),
+                None => error,
+            }
+        }
         ReadError::Stopped(stopped) => FileError::new(path, stopped.to_string()),
     })?;
     if mesh.set.is_empty() {
@@ -196,6 +205,16 @@ fn mesh_format(path: &Path) -> Result<Format, FileError> {
         FileError::new(path, format!("`.{extension}` is no mesh format that vv reads"))
             .hint(format!("it reads {}", known.join(" and ")))
     })
+}
+
+/// The extension that a mesh text should have if it is of another format than its name says.
+fn misnamed(bytes: &[u8], format: Format) -> Option<&'static str> {
+    let is_off = sniff(bytes) == Format::Off;
+    let has_vertex = || bytes.split(|&b| b == b'\n').any(|line| line.starts_with(b"v "));
+    match format {
+        Format::Obj => is_off.then_some("`.off`"),
+        Format::Off => (!is_off && has_vertex()).then_some("`.obj`"),
+    }
 }
 
 /// The format that a mesh text says it is in: OFF texts begin with a word that ends in `OFF`.
@@ -217,15 +236,38 @@ fn read(path: &Path, limit: u64, stop: &Stop) -> Result<Vec<u8>, FileError> {
         if count == 0 {
             return Ok(bytes);
         }
-        // Texts hold no NUL; what does is binary or a device without end.
-        if bytes.len() == count && bytes.contains(&0) {
-            return Err(FileError::new(path, "is no text: it holds zero bytes"));
+        if bytes.len() == count
+            && let Some(error) = no_text(path, &bytes)
+        {
+            return Err(error);
         }
         if bytes.len() as u64 > limit {
             return Err(FileError::new(path, format!("is longer than {} MiB", limit >> 20)));
         }
         stop.check().map_err(|stopped| FileError::new(path, stopped.to_string()))?;
     }
+}
+
+/// What a file is that begins with these bytes, if it is no text. Texts hold no NUL; what does is binary or a device
+/// without end.
+fn no_text(path: &Path, bytes: &[u8]) -> Option<FileError> {
+    let is = |message: &str| Some(FileError::new(path, format!("is no text: {message}")));
+    if bytes.starts_with(b"\x1F\x8B") {
+        return is("it is compressed by gzip").map(|error| error.hint("unpack it first, with `gunzip`"));
+    }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return is("it is a zip archive").map(|error| error.hint("unpack it first, with `unzip`"));
+    }
+    if !bytes.contains(&0) {
+        return None;
+    }
+    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
+        return is("it is in UTF-16").map(|error| error.hint("save it as UTF-8"));
+    }
+    if bytes.starts_with(b"OFF BINARY") {
+        return is("it is binary OFF").map(|error| error.hint("vv reads OFF that is text"));
+    }
+    is("it holds NUL bytes")
 }
 
 fn open(path: &Path) -> Result<File, FileError> {
@@ -276,9 +318,42 @@ mod tests {
         fs::write(&path, b"// a\n// \xFC").unwrap();
         fails(read_program(&path), Some(2), "the text is not in UTF-8");
         fs::write(&path, [0; 9]).unwrap();
-        fails(read_program(&path), None, "is no text: it holds zero bytes");
+        fails(read_program(&path), None, "is no text: it holds NUL bytes");
         fs::write(&path, vec![b' '; MAX_PROGRAM_BYTES as usize + 1]).unwrap();
         fails(read_program(&path), None, "is longer than 16 MiB");
+    }
+
+    #[test]
+    fn what_is_no_text_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("m.off");
+        for (bytes, is) in [
+            (b"\x1F\x8B\x08\x00\x00".as_slice(), "is no text: it is compressed by gzip"),
+            (b"PK\x03\x04\x00", "is no text: it is a zip archive"),
+            (b"\xFF\xFEv\x00 \x00", "is no text: it is in UTF-16"),
+            (b"OFF BINARY\n\x00\x00", "is no text: it is binary OFF"),
+            (b"OFF\n\x00", "is no text: it holds NUL bytes"),
+        ] {
+            fs::write(&path, bytes).unwrap();
+            fails(read_mesh(&path, &ReadOptions::default()), None, is);
+        }
+    }
+
+    #[test]
+    fn a_mesh_under_the_name_of_another_format_is_known() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, text, hint) in [
+            (
+                "m.obj",
+                "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+                "it looks like `.off`, which its name should end in",
+            ),
+            ("m.off", "# by hand\nv 0 0 0\nv 1 0 0\n", "it looks like `.obj`, which its name should end in"),
+        ] {
+            fs::write(folder.path().join(name), text).unwrap();
+            let error = read_mesh(&folder.path().join(name), &ReadOptions::default()).unwrap_err();
+            assert_eq!(error.diagnostic.hints.last().map(|h| h.message.as_str()), Some(hint));
+        }
     }
 
     #[test]

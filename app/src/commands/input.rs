@@ -7,7 +7,7 @@ use std::sync::Arc;
 use app::evaluation::within;
 use app::files::{self, FileError};
 use vv::diagnostic::{Diagnostic, Severity};
-use vv::io::ReadOptions;
+use vv::io::{Format, ReadOptions};
 use vv::ir::Program;
 use vv::mesh::Mesh;
 use vv::source::{Sources, Span};
@@ -21,8 +21,13 @@ const MOST_QUOTED: u64 = 64 << 20;
 /// Reads and checks a program and reports what is wrong with it; what is wrong but no error is also returned.
 ///
 /// # Errors
-/// [`Exit::File`] if it cannot be read, [`Exit::Program`] if it has errors.
+/// [`Exit::Usage`] if it is a mesh, [`Exit::File`] if it cannot be read, [`Exit::Program`] if it has errors.
 pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Diagnostic>), Exit> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    if Format::from_extension(&extension).is_some() {
+        let diagnostic = error(format!("{} is a mesh, and a program is wanted", files::shown(path)));
+        return fail(reporter, Exit::Usage, diagnostic.hint("`vv run PROGRAM -i MESH` applies a program to a mesh"));
+    }
     let text = files::read_program(path).map_err(|error| file_failed(&error, reporter))?;
     let (compilation, _) = files::compile(path, &text);
     reporter.report(&compilation.diagnostics, &compilation.sources);

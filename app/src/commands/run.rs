@@ -41,11 +41,14 @@ Examples:
 pub struct Arguments {
     /// The program; `-` is stdin.
     program: PathBuf,
+    /// What is no option and no program: the mesh, where `-i` was forgotten.
+    #[arg(hide = true)]
+    others: Vec<PathBuf>,
     /// The mesh to begin with (.obj, .off); `-` is stdin, in either format. A program with `start` needs none.
     #[arg(short, long, value_name = "MESH")]
     input: Option<PathBuf>,
     /// How often to apply the rule. Default: 1, or 0 if the program has only `start`.
-    #[arg(short = 'n', long, value_name = "STEPS")]
+    #[arg(short = 'n', long, value_name = "STEPS", allow_negative_numbers = true, value_parser = steps)]
     steps: Option<u64>,
     /// The rule to apply. Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
@@ -58,7 +61,7 @@ pub struct Arguments {
     #[command(flatten)]
     importing: Importing,
     /// Seed of `random()`.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     seed: u64,
     /// Write counts, invariants, warnings and timings to stdout as one object; `print` then goes to stderr.
     #[arg(long, value_enum, value_name = "FORMAT")]
@@ -69,7 +72,7 @@ pub struct Arguments {
     reference: Option<PathBuf>,
     /// How far the reference may be off: for meshes a distance, by default 1e-9; for pictures the difference of a colour
     /// channel from 0 to 1 (of single pixels at outlines four times that), by default 0.
-    #[arg(long, value_name = "X", requires = "reference", value_parser = tolerance)]
+    #[arg(long, value_name = "X", requires = "reference", allow_negative_numbers = true, value_parser = tolerance)]
     tolerance: Option<f64>,
     #[command(flatten)]
     reporting: Reporting,
@@ -160,6 +163,11 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
 
 /// Nothing can be read or written twice.
 fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit> {
+    if let Some(other) = arguments.others.first() {
+        let name = files::shown(other);
+        let diagnostic = error(format!("`vv run` takes one program, and {name} is one file more"));
+        return fail(reporter, Exit::Usage, diagnostic.hint(format!("a mesh is given with `-i {name}`")));
+    }
     let from_stdin = |path: &PathBuf| files::is_standard_stream(path);
     if from_stdin(&arguments.program) && arguments.input.as_ref().is_some_and(from_stdin) {
         return fail(reporter, Exit::Usage, error("program and mesh cannot both be read from stdin"));
@@ -210,6 +218,14 @@ fn unknown_rule(program: &str, wanted: &str, names: &[&str]) -> Diagnostic {
         Some(name) => diagnostic.hint(format!("did you mean `--rule {name}`?")),
         None => diagnostic,
     }
+}
+
+fn steps(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "steps are counted: 0, 1, 2 and so on".to_owned())
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -281,6 +297,8 @@ impl Run<'_> {
                 let mut diagnostic = failure.diagnostic.evidence(format!("this was in {what}"));
                 if let FailureKind::Stopped(_) = failure.kind {
                     diagnostic = diagnostic.hint("allow more time with `--timeout SECONDS`");
+                } else if exit == Exit::Budget && diagnostic.message.ends_with(" vertices") {
+                    diagnostic = diagnostic.hint("allow more with `--max-vertices N`");
                 }
                 self.reporter.report(&[diagnostic], &self.program.sources);
                 Err(exit)

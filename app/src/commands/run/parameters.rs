@@ -9,7 +9,8 @@ use crate::commands::{closest, error, list};
 
 /// Name and value of a definition.
 pub fn definition(text: &str) -> Result<(String, String), String> {
-    let (name, value) = text.split_once('=').ok_or("a definition is a name and a value such as w=0.05")?;
+    let pair = text.split_once('=').filter(|(name, _)| !name.trim().is_empty());
+    let (name, value) = pair.ok_or("a definition is a name and a value such as w=0.05")?;
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 

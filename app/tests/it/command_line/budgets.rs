@@ -16,7 +16,13 @@ fn each_step_has_the_whole_time() {
 #[test]
 fn vertices_without_end_run_out_of_room() {
     let text = "void step(mesh& S) { while (true) { vertex v; add v to S; } }\n";
-    check_file("p.vv", text, "run p.vv -i square.off --max-vertices 1000 -o a.obj", 4, "p.vv:1:\n1000");
+    check_file(
+        "p.vv",
+        text,
+        "run p.vv -i square.off --max-vertices 1000 -o a.obj",
+        4,
+        "p.vv:1:\n1000\nallow more with `--max-vertices N`",
+    );
     check("run move.vv -i octahedron.obj --max-vertices 5", 4, "octahedron.obj: has 6 vertices, 5 are allowed");
 }
 

@@ -7,7 +7,20 @@ fn a_command_line_that_cannot_be_meant_so_says_why() {
     for (arguments, said) in [
         ("run", "PROGRAM"),
         ("run move.vv --nonsense", "--nonsense"),
-        ("run move.vv -i octahedron.obj -n -1", "-1"),
+        ("run move.vv -i octahedron.obj -n -1", "steps are counted: 0, 1, 2"),
+        ("run move.vv -i octahedron.obj -n 1.5", "steps are counted: 0, 1, 2"),
+        ("run move.vv -i octahedron.obj --timeout -1", "seconds are a number"),
+        ("run move.vv -i octahedron.obj --seed -1", "a seed is a whole number"),
+        ("run move.vv -i octahedron.obj --reference square.off --tolerance -1", "a tolerance is a number"),
+        (
+            "run move.vv octahedron.obj",
+            "one program, and octahedron.obj is one file more\na mesh is given with `-i octahedron.obj`",
+        ),
+        (
+            "run octahedron.obj -i move.vv",
+            "octahedron.obj is a mesh, and a program is wanted\n`vv run PROGRAM -i MESH`",
+        ),
+        ("check octahedron.obj", "octahedron.obj is a mesh, and a program is wanted"),
         ("run move.vv -i octahedron.obj --timeout soon", "seconds are a number"),
         ("run move.vv -i octahedron.obj --size 3", "a size is width and height such as 1280x960"),
         ("run move.vv -i octahedron.obj --tolerance 1", "--reference"),
@@ -31,6 +44,7 @@ fn a_command_line_that_cannot_be_meant_so_says_why() {
 fn definitions_must_fit_the_parameters() {
     for (definition, said) in [
         ("far", "a definition is a name and a value"),
+        ("=1", "a definition is a name and a value"),
         ("fax=1", "no parameter `fax`\n`far`, `times` and `along`\n-D far="),
         ("far=wide", "`far` is a number\nits default is 1"),
         ("far=10.5", "`far` must lie in [0, 10]"),
