@@ -109,9 +109,9 @@ fn convert(diagnostic: &Diagnostic, marks: &[Mark], files: &Excerpts<'_>) -> cod
         Some(label.with_message(printable(&message)))
     };
     let mut notes = diagnostic.evidence.clone();
-    let calls = diagnostic.calls.len();
-    if calls > MOST_CALLS {
-        notes.push(format!("{} more calls are open between these", calls - MOST_CALLS));
+    // How many there are, a run-time error says itself if it does not list them all.
+    if diagnostic.calls.len() > MOST_CALLS {
+        notes.push("calls between these are not shown".to_owned());
     }
     notes.extend(vertices(diagnostic));
     notes.extend(diagnostic.hints.iter().map(|hint| format!("help: {}", hint.message)));

@@ -91,7 +91,7 @@ fn deep_recursion_stays_short() {
     let mut diagnostic = Diagnostic::error(span(INSERT, "x"), "too many calls");
     diagnostic.calls = vec![("insert".into(), span(INSERT, "insert(p)")); 10_000];
     let rendered = render(&[diagnostic], &sources(), Form::Human { color: false });
-    assert!(rendered.contains("9992 more calls are open between these"), "{rendered}");
+    assert!(rendered.contains("calls between these are not shown"), "{rendered}");
     assert!(rendered.lines().count() < 30, "{rendered}");
 }
 
