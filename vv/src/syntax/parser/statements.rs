@@ -65,7 +65,11 @@ impl Parser<'_> {
         if words::any_type(self.word_at(ty)).is_none() {
             return false;
         }
-        let name = ty + 1;
+        self.signature_at(ty + 1)
+    }
+
+    /// Whether a token is the name in `name(…) {`.
+    fn signature_at(&self, name: usize) -> bool {
         self.kind_at(name) == Kind::Word
             && self.kind_at(name + 1) == Kind::OpenParen
             && self.behind_parentheses(name + 1).is_some_and(|behind| self.kind_at(behind) == Kind::OpenBrace)
@@ -149,6 +153,15 @@ impl Parser<'_> {
                 return if self.is_end() { StmtKind::Empty } else { self.statement().kind };
             }
             _ => {}
+        }
+        // On a line of its own it would have ended the block: see `function_at`.
+        if words::any_type(word).is_some() && self.signature_at(start + 1) {
+            let name = self.span_at(start + 1);
+            let error = Diagnostic::error(name, "functions do not nest");
+            self.mend(error.hint("write this one before or after the function it stands in"));
+            self.at = self.behind_parentheses(start + 2).unwrap_or(start + 1);
+            let _ = self.block("the function");
+            return StmtKind::Empty;
         }
         if word == "const" || self.declaration_at(start) {
             let declaration = self.declaration();

@@ -1022,3 +1022,15 @@ fn a_missing_brace_before_a_static_function() {
     assert_eq!(messages, ["this `{` is never closed"]);
     assert_eq!(ast.items.len(), 3);
 }
+
+#[test]
+fn a_function_inside_a_function() {
+    check(
+        r#"
+        if (a) { void inner() { b = c; } int f(int a) { return a; } }
+        //            ^^^^^ error: functions do not nest | write this one before or after the function it stands in
+        //                                   ^ error: functions do not nest | write this one before or after the function it stands in
+        d = e;
+    "#,
+    );
+}
