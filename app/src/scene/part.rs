@@ -13,7 +13,7 @@ use super::triangulate::{Triangulator, newell};
 pub struct Corner {
     /// In scene units.
     pub position: [f32; 3],
-    /// Normal of the surface around the vertex, packed by [`pack`]; the zero word where there is no surface.
+    /// Normal of the surface around the vertex, packed by `pack`; the zero word where there is no surface.
     pub normal: u32,
     /// Normal of the face this corner speaks for, packed.
     pub face_normal: u32,
