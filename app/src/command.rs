@@ -92,6 +92,8 @@ pub enum Command {
     SetCamera(Camera),
     /// All of the mesh in sight.
     Fit,
+    /// The picture to the clipboard.
+    CopyImage,
     /// Light, dark, or what the system says.
     SetTheme(ThemeChoice),
     /// A panel on and off.
@@ -188,6 +190,8 @@ impl Command {
             Self::Smooth => ("Smooth", "shade as if the surface were smooth", const { &[key(Key::N)] }),
             Self::Control => ("Control mesh", "superimpose the mesh of generation 0", const { &[key(Key::C)] }),
             Self::Fit => ("Fit view", "bring all of the mesh in sight", const { &[key(Key::F)] }),
+            // Ctrl+C arrives as a wish to copy, not as a key.
+            Self::CopyImage => ("Copy image", "copy the picture to the clipboard", const { &[ctrl(Key::C)] }),
             Self::SetTheme(ThemeChoice::System) => ("System theme", "light or dark as the system is", &[]),
             Self::SetTheme(ThemeChoice::Light) => ("Light theme", "dark on light", &[]),
             Self::SetTheme(ThemeChoice::Dark) => ("Dark theme", "light on dark", &[]),
@@ -225,7 +229,7 @@ impl Command {
             Self::Back | Self::Rewind => session.document.generation > 0,
             Self::Step | Self::Play => session.can_step(),
             Self::Stop => session.is_busy() || session.is_playing(),
-            Self::Choose(Purpose::ExportMesh) => session.frame().is_some(),
+            Self::Choose(Purpose::ExportMesh) | Self::CopyImage => session.frame().is_some(),
             Self::ResetParams => !session.document.params.is_empty(),
             Self::TakeFromDisk | Self::KeepMine => session.text_on_disk().is_some(),
             _ => true,

@@ -36,6 +36,11 @@ use crate::command::{Command, ThemeChoice};
 use crate::render;
 use crate::session::Session;
 
+/// Points of width that the viewport keeps, whatever stands beside it.
+const VIEWPORT: f32 = 170.0;
+/// Least width of the inspector.
+const INSPECTOR: f32 = 200.0;
+
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
@@ -84,6 +89,10 @@ pub struct App {
     messages: messages::Messages,
     title: String,
     quitting: bool,
+    /// What had the keys before a dialog opened.
+    focus: Option<egui::Id>,
+    /// Frames until they get them back, from the dialog's last one on.
+    asked: u8,
 }
 
 impl App {
@@ -99,14 +108,17 @@ impl App {
         theme::install(&cc.egui_ctx);
         let render_state = cc.wgpu_render_state.clone().ok_or("the window has no graphics device")?;
         let ctx = cc.egui_ctx.clone();
-        let session = Session::new(mesh, program, Arc::new(move || ctx.request_repaint()))?;
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || ctx.request_repaint());
+        let session = Session::new(mesh, program, Arc::clone(&wake))?;
         Ok(Self {
             session,
             editor: editor::Editor::default(),
-            viewport: viewport::Viewport::new(render_state)?,
+            viewport: viewport::Viewport::new(render_state, wake)?,
             messages: messages::Messages::default(),
             title: String::new(),
             quitting: false,
+            focus: None,
+            asked: 0,
         })
     }
 
@@ -125,13 +137,14 @@ impl App {
         let reveal = self.session.reveal.take();
         let session = &self.session;
         let width = ui.available_width();
+        let inspector = if session.panels.inspector { INSPECTOR } else { 0.0 };
         egui::Panel::top("menu").frame(theme::bar(ui)).show(ui, |ui| menu::show(ui, session, commands));
         egui::Panel::top("tools").frame(theme::bar(ui)).show(ui, |ui| toolbar::show(ui, session, commands));
         if session.panels.program || session.panels.messages {
             egui::Panel::left("left")
                 .frame(egui::Frame::NONE)
                 .default_size((width * 0.36).clamp(240.0, 560.0))
-                .size_range(200.0..=(width * 0.6).max(220.0))
+                .size_range(200.0..=(width - inspector - VIEWPORT).max(220.0))
                 .show(ui, |ui| {
                     let height = ui.available_height();
                     if session.panels.messages && session.panels.program {
@@ -159,12 +172,30 @@ impl App {
             egui::Panel::right("inspector")
                 .frame(theme::panel(ui))
                 .default_size((width * 0.19).clamp(190.0, 270.0))
-                .size_range(170.0..=(width * 0.4).max(180.0))
+                .size_range(INSPECTOR..=(ui.available_width() - VIEWPORT).clamp(INSPECTOR, width * 0.5))
                 .show(ui, |ui| inspector::show(ui, session, commands));
         }
         egui::CentralPanel::default()
             .frame(egui::Frame::NONE)
             .show(ui, |ui| self.viewport.show(ui, &mut self.session, commands));
+    }
+
+    /// After a dialog the keys belong again to whom they belonged before.
+    fn keep_focus(&mut self, ctx: &egui::Context) {
+        match (self.session.dialog.is_some(), self.asked) {
+            (true, _) => self.asked = 2,
+            (false, 2) => {
+                self.asked = 1; // in the first frame without the dialog egui still keeps the keys for it
+                ctx.request_repaint();
+            }
+            (false, 1) => {
+                self.asked = 0;
+                if let Some(id) = self.focus {
+                    ctx.memory_mut(|m| m.request_focus(id));
+                }
+            }
+            (false, _) => self.focus = ctx.memory(|m| m.focused()),
+        }
     }
 
     fn close(&mut self, ctx: &egui::Context) {
@@ -208,6 +239,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let mut commands = Vec::new();
+        self.keep_focus(ui.ctx());
         if self.session.dialog.is_none() {
             keys::take(ui.ctx(), &self.session, &mut commands);
         }

@@ -17,6 +17,7 @@ use glam::{DVec3, Vec3};
 use crate::camera::Camera;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
+use vv::stop::{Stop, Stopped};
 
 pub use part::{Corner, Part};
 
@@ -116,8 +117,10 @@ impl Scene {
     /// The whole universe of the mesh is drawn. Vertices whose position is not finite, or so far away (10¹⁵⁰) that
     /// lengths overflow, are left out together with their faces and edges; all others stay. Linear in the size of the
     /// mesh, but for concave polygons with many corners.
-    #[must_use]
-    pub fn new(mesh: &Mesh, faces: &Faces, control: Option<(&Mesh, &Faces)>) -> Self {
+    ///
+    /// # Errors
+    /// When `stop` is requested.
+    pub fn new(mesh: &Mesh, faces: &Faces, control: Option<(&Mesh, &Faces)>, stop: &Stop) -> Result<Self, Stopped> {
         let own = Extent::of(mesh.positions());
         let all = match control {
             Some((control, _)) => own.and(Extent::of(control.positions())),
@@ -131,14 +134,17 @@ impl Scene {
         let origin = bounds.center;
         let unit = power_of_two(bounds.radius);
         let to_scene = |p: DVec3| usable(p).then(|| (p - origin) / unit);
-        Self {
+        Ok(Self {
             origin,
             unit,
-            mesh: Part::new(mesh, faces, &to_scene, part::Fill::Faces),
-            control: control.map_or_else(Part::default, |(m, f)| Part::new(m, f, &to_scene, part::Fill::Nothing)),
+            mesh: Part::new(mesh, faces, &to_scene, part::Fill::Faces, stop)?,
+            control: match control {
+                Some((mesh, faces)) => Part::new(mesh, faces, &to_scene, part::Fill::Nothing, stop)?,
+                None => Part::default(),
+            },
             bounds,
             bounds_with_control,
-        }
+        })
     }
 
     /// A ball around what `style` shows.

@@ -10,7 +10,7 @@ mod problem;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
-use std::sync::{Arc, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
@@ -22,6 +22,7 @@ use crate::camera::Camera;
 use crate::command::{Command, Panel, ThemeChoice};
 use crate::console::Console;
 use crate::document::{Document, MeshSource, ProgramText};
+use crate::render::Size;
 use crate::scene::{Sphere, Style};
 use crate::watch::Watch;
 use crate::worker::{Frame, Request, Ticket, Worker};
@@ -124,6 +125,8 @@ pub struct Session {
     pub dialog: Option<Dialog>,
     /// A place of the program that the editor shall show; the editor takes it.
     pub reveal: Option<std::ops::Range<usize>>,
+    /// Size and style of the picture in the viewport, which tells them.
+    pub view: Option<(Size, Style)>,
     /// The viewport shall bring all in sight; the viewport takes it.
     pub fit: bool,
 
@@ -133,10 +136,14 @@ pub struct Session {
     includes_revision: u64,
     mesh_revision: u64,
     included: BTreeSet<PathBuf>,
+    /// Whether the user has said which mesh; else it is what the program needs.
+    mesh_chosen: bool,
 
     /// When to ask for what is wanted, if it is not what was asked for last.
     due: Option<Instant>,
     running: Option<Running>,
+    /// The generation that was stopped last: what it printed tells where it hung.
+    stopped: Option<u64>,
     frame: Option<Arc<Frame>>,
     stale: Option<Stale>,
     program: Option<Arc<Program>>,
@@ -147,6 +154,8 @@ pub struct Session {
     chooser: Option<Chooser>,
     background: Vec<Receiver<Result<String, String>>>,
     notice: Option<(Severity, String, Instant)>,
+    /// Kept, because it hands out what was copied.
+    clipboard: Arc<Mutex<Option<arboard::Clipboard>>>,
     wants_quit: bool,
 }
 
@@ -171,6 +180,7 @@ impl Session {
             panels: Panels { program: true, messages: true, inspector: true },
             dialog: None,
             reveal: None,
+            view: None,
             fit: true,
             worker,
             watch,
@@ -178,8 +188,10 @@ impl Session {
             includes_revision: 0,
             mesh_revision: 0,
             included: BTreeSet::new(),
+            mesh_chosen: false,
             due: None,
             running: None,
+            stopped: None,
             frame: None,
             stale: None,
             program: None,
@@ -189,6 +201,7 @@ impl Session {
             chooser: None,
             background: Vec::new(),
             notice: None,
+            clipboard: Arc::default(),
             wants_quit: false,
         };
         session.ask_now();
@@ -299,6 +312,7 @@ impl Session {
             Command::Control => self.change_style(|s| s.control = !s.control),
             Command::SetCamera(camera) => self.document.camera = camera,
             Command::Fit => self.fit = true,
+            Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,
             Command::Toggle(Panel::Program) => self.panels.program = !self.panels.program,
             Command::Toggle(Panel::Messages) => self.panels.messages = !self.panels.messages,
@@ -397,12 +411,12 @@ impl Session {
         self.worker.console()
     }
 
-    /// The generation whose output is shown: the one that is computed or failed, else the one shown.
+    /// The generation whose output is shown: the one that is computed, failed or was stopped, else the one shown.
     #[must_use]
     pub fn console_generation(&self) -> u64 {
         match &self.running {
             Some(running) => running.request.generation,
-            None => self.document.generation,
+            None => self.stopped.unwrap_or(self.document.generation),
         }
     }
 

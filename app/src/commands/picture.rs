@@ -7,6 +7,7 @@ use app::scene::{Scene, Style};
 use image::{ImageFormat, RgbaImage};
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
+use vv::stop::Stop;
 
 use super::open::WITHOUT_GPU;
 use super::output::Size;
@@ -44,7 +45,9 @@ pub fn keep_driver_quiet() {
 pub fn picture(mesh: &Mesh, faces: &Faces, (width, height): Size, reporter: &Reporter) -> Result<RgbaImage, Exit> {
     let style = Style::default();
     let size = render::Size::new(width, height);
-    let scene = Scene::new(mesh, faces, None);
+    let Ok(scene) = Scene::new(mesh, faces, None, &Stop::new()) else {
+        return Err(Exit::Budget); // not reached: nobody stops it
+    };
     let camera = scene.standard_view(&style, size.aspect());
     render::render_image(&scene, &camera, &style, size).or_else(|problem| {
         let diagnostic = error(format!("the picture cannot be drawn: {problem}"));

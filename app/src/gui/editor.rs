@@ -112,7 +112,7 @@ impl Editor {
             galley: &output.galley,
             origin: output.galley_pos,
             text: &self.buffer,
-            clip: output.text_clip_rect.intersect(area),
+            clip: area.intersect(ui.clip_rect()),
         };
         let cursor_line =
             output.cursor_range.filter(|_| output.response.has_focus()).map(|range| page.row_of(range.primary));

@@ -169,9 +169,11 @@ fn histogram(ui: &mut Ui, title: &str, counts: &[(usize, usize)]) {
     let small = egui::TextStyle::Small.resolve(ui.style());
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     let bar = ui.visuals().hyperlink_color.gamma_multiply(0.55);
+    let widest = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let indent = 30.0_f32.max(8.0 + 6.5 * widest as f32);
     for (name, n) in rows {
         let (rect, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), 15.0), egui::Sense::hover());
-        let (left, right) = (rect.left() + 30.0, rect.right() - 52.0);
+        let (left, right) = (rect.left() + indent, rect.right() - 52.0);
         let painter = ui.painter();
         painter.text(egui::pos2(left - 8.0, rect.center().y), egui::Align2::RIGHT_CENTER, &name, small.clone(), weak);
         let length = (right - left).max(0.0) * n as f32 / most as f32;

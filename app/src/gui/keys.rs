@@ -1,6 +1,7 @@
 //! Keys and dropped files to commands.
 
-use eframe::egui::{Context, Key};
+use eframe::egui::text_selection::LabelSelectionState;
+use eframe::egui::{Context, Event, Key};
 
 use crate::command::{self, Command};
 use crate::session::Session;
@@ -25,6 +26,11 @@ pub fn take(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
         }
     }
     if !typing {
+        let copies = ctx.input(|i| i.events.iter().any(|event| matches!(event, Event::Copy)));
+        // Text that is selected in a label is meant first.
+        if copies && !text_is_selected(ctx) && Command::CopyImage.is_enabled(session) {
+            commands.push(Command::CopyImage);
+        }
         let digits = [
             Key::Num0,
             Key::Num1,
@@ -49,4 +55,8 @@ pub fn take(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
 pub fn take_dropped_files(ctx: &Context, commands: &mut Vec<Command>) {
     let paths = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect::<Vec<_>>());
     commands.extend(paths.into_iter().map(Command::Open));
+}
+
+fn text_is_selected(ctx: &Context) -> bool {
+    ctx.plugin_opt::<LabelSelectionState>().is_some_and(|state| state.lock().has_selection())
 }

@@ -15,9 +15,10 @@ use crate::session::{Purpose, Session};
 /// Shows it.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let list = |ui: &mut Ui, commands: &mut Vec<Command>, entries: &[Option<Command>]| {
+        let ticks = entries.iter().flatten().any(|command| command.is_on(session).is_some());
         for entry in entries {
             match entry {
-                Some(command) => menu_item(ui, session, commands, command.clone()),
+                Some(command) => menu_item(ui, session, commands, command.clone(), ticks),
                 None => drop(ui.separator()),
             }
         }
@@ -83,6 +84,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             ui.set_min_width(200.0);
             let entries = [
                 Some(Command::Fit),
+                Some(Command::CopyImage),
                 None,
                 Some(Command::Faces),
                 Some(Command::Smooth),

@@ -119,6 +119,7 @@ fn console(ui: &mut Ui, session: &Session, generation: u64, lines: usize) {
     let dropped = session.console().dropped();
     if lines == 0 {
         ui.weak("what the program prints appears here");
+        ui.take_available_space(); // the panel keeps its height
         return;
     }
     ScrollArea::both().id_salt("console").auto_shrink(Vec2b::FALSE).stick_to_bottom(true).show_rows(

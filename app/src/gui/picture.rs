@@ -1,6 +1,7 @@
 //! The picture of the mesh, drawn by [`crate::render`] and handed to egui as a texture.
 
 use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, TryRecvError};
 
 use eframe::egui::TextureId;
 use eframe::egui_wgpu::RenderState;
@@ -12,29 +13,52 @@ use crate::scene::{Scene, Style};
 /// Smooth outlines; software drivers take a third longer for them.
 const SAMPLES: u32 = 4;
 
+/// Scenes of more corners come to the GPU in a thread of their own, so that the window waits for none.
+const AT_ONCE: usize = 100_000;
+
 /// Draws only when something has changed.
 pub struct Picture {
     state: RenderState,
-    renderer: Renderer,
+    renderer: Arc<Renderer>,
+    wake: Arc<dyn Fn() + Send + Sync>,
     target: Option<Target>,
     texture: Option<TextureId>,
     uploaded: Option<(Arc<Scene>, Uploaded)>,
+    uploading: Option<Uploading>,
+    /// What cannot be brought to the GPU, and why.
+    refused: Option<(Arc<Scene>, RenderError)>,
     drawn: Option<(Camera, Style)>,
     /// How often it was drawn.
     pub drawings: u64,
 }
 
+struct Uploading {
+    scene: Arc<Scene>,
+    result: Receiver<Result<Uploaded, RenderError>>,
+}
+
 impl Picture {
-    /// On the window's device.
+    /// On the window's device. `wake` is called, from another thread, when a large scene has come to the GPU.
     ///
     /// # Errors
     /// If the driver refuses a pipeline.
-    pub fn new(state: RenderState) -> Result<Self, RenderError> {
-        let renderer = Renderer::new(&state.device, &state.queue, SAMPLES)?;
-        Ok(Self { state, renderer, target: None, texture: None, uploaded: None, drawn: None, drawings: 0 })
+    pub fn new(state: RenderState, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, RenderError> {
+        let renderer = Arc::new(Renderer::new(&state.device, &state.queue, SAMPLES)?);
+        Ok(Self {
+            state,
+            renderer,
+            wake,
+            target: None,
+            texture: None,
+            uploaded: None,
+            uploading: None,
+            refused: None,
+            drawn: None,
+            drawings: 0,
+        })
     }
 
-    /// The texture with the scene drawn in this size.
+    /// The texture with the scene drawn in this size; the scene before, while a large one is on its way to the GPU.
     ///
     /// # Errors
     /// If the driver refuses it; the next call tries anew.
@@ -47,9 +71,7 @@ impl Picture {
     ) -> Result<TextureId, RenderError> {
         let texture = self.sized(size)?;
         if !self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene)) {
-            self.uploaded = None; // before the new one, so that both need not fit
-            self.drawn = None;
-            self.uploaded = Some((Arc::clone(scene), self.renderer.upload(scene)?));
+            self.upload(scene)?;
         }
         if self.drawn != Some((*camera, *style))
             && let (Some(target), Some((_, uploaded))) = (&self.target, &self.uploaded)
@@ -59,6 +81,48 @@ impl Picture {
             self.drawings += 1;
         }
         Ok(texture)
+    }
+
+    fn upload(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
+        if let Some((_, error)) = self.refused.as_ref().filter(|(refused, _)| Arc::ptr_eq(refused, scene)) {
+            return Err(error.clone());
+        }
+        let result = match &self.uploading {
+            Some(on_its_way) if Arc::ptr_eq(&on_its_way.scene, scene) => match on_its_way.result.try_recv() {
+                Ok(result) => result,
+                Err(TryRecvError::Empty) => return Ok(()),
+                Err(TryRecvError::Disconnected) => Err(RenderError::Failed("the graphics driver gave up".to_owned())),
+            },
+            _ if scene.mesh.corners.len() + scene.control.corners.len() <= AT_ONCE => self.renderer.upload(scene),
+            _ => {
+                self.send(scene);
+                return Ok(());
+            }
+        };
+        self.uploading = None;
+        self.drawn = None;
+        match result {
+            Ok(uploaded) => self.uploaded = Some((Arc::clone(scene), uploaded)),
+            // Perhaps there is room without the one before.
+            Err(_) if self.uploaded.take().is_some() => self.send(scene),
+            Err(error) => {
+                self.refused = Some((Arc::clone(scene), error.clone()));
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// Begins to bring a scene to the GPU.
+    fn send(&mut self, scene: &Arc<Scene>) {
+        let (sender, result) = mpsc::channel();
+        let (renderer, wake, sent) = (Arc::clone(&self.renderer), Arc::clone(&self.wake), Arc::clone(scene));
+        std::thread::spawn(move || {
+            let _ = sender.send(renderer.upload(&sent));
+            drop(sent);
+            wake();
+        });
+        self.uploading = Some(Uploading { scene: Arc::clone(scene), result });
     }
 
     /// The texture in this size.

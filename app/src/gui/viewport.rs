@@ -3,6 +3,8 @@
 //! Left drag turns; right, middle and Shift+left drag shift; the wheel zooms to the cursor; a double click makes the point
 //! under it the pivot.
 
+use std::sync::Arc;
+
 use eframe::egui::{
     self, Align2, Color32, CornerRadius, CursorIcon, FontId, Margin, Pos2, Rect, Response, Role, Sense, TextStyle, Ui,
     Vec2, WidgetInfo, pos2, vec2,
@@ -27,12 +29,12 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// On the window's device.
+    /// On the window's device. `wake` is called, from another thread, when there is more to show.
     ///
     /// # Errors
     /// If the driver refuses a pipeline.
-    pub fn new(state: RenderState) -> Result<Self, RenderError> {
-        Ok(Self { picture: Picture::new(state)? })
+    pub fn new(state: RenderState, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, RenderError> {
+        Ok(Self { picture: Picture::new(state, wake)? })
     }
 
     /// Shows it. Takes [`Session::fit`].
@@ -53,13 +55,14 @@ impl Viewport {
         let mut camera = session.document.camera;
         if session.fit && !session.is_busy() {
             session.fit = false;
-            camera = Camera::fit(camera, frame.scene.bounds(&style), size.aspect());
+            camera = frame.scene.fit(camera, &style, size.aspect());
             commands.push(Command::SetCamera(camera));
         }
         if let Some(moved) = hands(ui, &response, rect, camera, &frame, &style) {
             camera = moved;
             commands.push(Command::SetCamera(camera));
         }
+        session.view = Some((size, style));
         match self.picture.texture(size, &frame.scene, &camera, &style) {
             Ok(texture) => {
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -158,13 +161,8 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
         grouped(s.faces)
     );
     let small = TextStyle::Small.resolve(ui.style());
-    ui.painter().text(
-        rect.left_bottom() + vec2(10.0, -8.0),
-        Align2::LEFT_BOTTOM,
-        summary,
-        small,
-        visuals.weak_text_color(),
-    );
+    let galley = ui.painter().layout(summary, small, visuals.weak_text_color(), (rect.width() - 20.0).max(60.0));
+    ui.painter().galley(rect.left_bottom() + vec2(10.0, -8.0 - galley.size().y), galley, visuals.weak_text_color());
     // What is done at once needs no announcement.
     if let Some((elapsed, generation)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
         let what = generation.map_or("reading".to_owned(), |g| format!("computing generation {g}"));
@@ -205,10 +203,19 @@ fn badge(ui: &mut Ui, rect: Rect, color: Color32, title: &str, text: &str) {
                 ui.vertical_centered(|ui| {
                     ui.spacing_mut().item_spacing.y = 2.0;
                     ui.label(egui::RichText::new(title).color(color).strong());
-                    ui.add(egui::Label::new(text).wrap());
+                    ui.label(few_lines(ui, text, width));
                 });
             });
     });
+}
+
+/// The text, cut where it would cover the picture; the problems below show all of it.
+fn few_lines(ui: &Ui, text: &str, width: f32) -> egui::text::LayoutJob {
+    let font = TextStyle::Body.resolve(ui.style());
+    let mut job = egui::text::LayoutJob::simple(text.to_owned(), font, ui.visuals().text_color(), width);
+    job.wrap.max_rows = 4;
+    job.halign = egui::Align::Center;
+    job
 }
 
 fn pill(ui: &Ui, at: Pos2, align: Align2, text: &str, color: Color32) {

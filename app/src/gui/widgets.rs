@@ -84,15 +84,15 @@ pub fn tooltip(ui: &mut Ui, command: &Command) {
     });
 }
 
-/// A command as an entry of a menu; a switch that is on has a tick before it.
-pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command) {
+/// A command as an entry of a menu; a switch that is on has a tick before it, for which a menu with `ticks` has room.
+pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command, ticks: bool) {
     const TICK: f32 = 22.0;
     let description = command.describe();
     let keys = description.shortcuts.first().map(|s| ui.ctx().format_shortcut(s)).unwrap_or_default();
     let on = command.is_on(session);
     let mut text = LayoutJob::default();
     let font = TextStyle::Button.resolve(ui.style());
-    let space = if on.is_some() { TICK } else { 0.0 };
+    let space = if ticks { TICK } else { 0.0 };
     text.append(description.label, space, TextFormat::simple(font, Color32::PLACEHOLDER));
     let button = Button::new(text).shortcut_text(keys);
     let response = ui.add_enabled(command.is_enabled(session), button).accessible_name(description.label);

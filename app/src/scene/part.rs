@@ -4,6 +4,7 @@ use glam::{DVec3, Vec2, Vec3};
 
 use vv::mesh::faces::Faces;
 use vv::mesh::{Mesh, Vertex};
+use vv::stop::{Stop, Stopped};
 
 use super::triangulate::{Triangulator, newell};
 
@@ -55,14 +56,20 @@ pub(super) enum Fill {
 const NONE: u32 = u32::MAX;
 
 impl Part {
-    pub(super) fn new(mesh: &Mesh, faces: &Faces, to_scene: &dyn Fn(DVec3) -> Option<DVec3>, fill: Fill) -> Self {
+    pub(super) fn new(
+        mesh: &Mesh,
+        faces: &Faces,
+        to_scene: &dyn Fn(DVec3) -> Option<DVec3>,
+        fill: Fill,
+        stop: &Stop,
+    ) -> Result<Self, Stopped> {
         let mut part = Self::default();
         let places = part.add_vertices(mesh, to_scene);
-        part.add_edges(mesh, faces, &places);
+        part.add_edges(mesh, faces, &places, stop)?;
         if fill == Fill::Faces {
-            part.add_faces(faces, &places);
+            part.add_faces(faces, &places, stop)?;
         }
-        part
+        Ok(part)
     }
 
     /// Fills in the corners that stand for vertices; returns which stands for which vertex.
@@ -89,10 +96,10 @@ impl Part {
     }
 
     /// Each pair of neighbours once.
-    fn add_edges(&mut self, mesh: &Mesh, faces: &Faces, places: &Places) {
+    fn add_edges(&mut self, mesh: &Mesh, faces: &Faces, places: &Places, stop: &Stop) -> Result<(), Stopped> {
         let mut outer = Vec::new();
         let (mut total, mut longest) = (0.0, 0.0f64);
-        for_each_edge(mesh, faces, |p, q, sides| {
+        for_each_edge(mesh, faces, stop, |p, q, sides| {
             let (Some(a), Some(b)) = (places.get(p), places.get(q)) else { return };
             let length = places.positions[a as usize].distance(places.positions[b as usize]);
             total += length;
@@ -102,15 +109,16 @@ impl Part {
             } else {
                 outer.push([a, b]);
             }
-        });
+        })?;
         self.inner_edge_count = index(self.edges.len());
         self.edges.append(&mut outer);
         self.mean_edge = if self.edges.is_empty() { 0.0 } else { (total / self.edges.len() as f64) as f32 };
         self.longest_inner_edge = longest as f32;
+        Ok(())
     }
 
     /// Triangles, and normals of faces and vertices.
-    fn add_faces(&mut self, faces: &Faces, places: &Places) {
+    fn add_faces(&mut self, faces: &Faces, places: &Places, stop: &Stop) -> Result<(), Stopped> {
         let mut normals = vec![DVec3::ZERO; self.corners.len()];
         let mut speaks = vec![false; self.corners.len()];
         let mut extra: Vec<u32> = Vec::new(); // the vertex of each further corner
@@ -118,6 +126,7 @@ impl Part {
         let (mut points, mut ends, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         let mut speakers: Vec<u32> = Vec::new();
         for face in faces.iter().filter(|f| f.len() > 2) {
+            stop.check()?;
             ends.clear();
             ends.extend(face.iter().filter_map(|&v| places.get(v)));
             if ends.len() < face.len() {
@@ -161,6 +170,7 @@ impl Part {
         for (corner, &vertex) in further.iter_mut().zip(&extra) {
             corner.normal = own[vertex as usize].normal;
         }
+        Ok(())
     }
 }
 
@@ -188,12 +198,17 @@ enum Sides {
 ///
 /// Collects what rings and faces say of each pair, sorted into one bucket for each older vertex: linear, but for the
 /// sorting of large buckets.
-fn for_each_edge(mesh: &Mesh, faces: &Faces, mut edge: impl FnMut(Vertex, Vertex, Sides)) {
+fn for_each_edge(
+    mesh: &Mesh,
+    faces: &Faces,
+    stop: &Stop,
+    mut edge: impl FnMut(Vertex, Vertex, Sides),
+) -> Result<(), Stopped> {
     const THERE: u64 = 1;
     const BACK: u64 = 2;
     const FLAGS: u32 = 2; // bits below the younger vertex
     let n = mesh.vertex_count();
-    let each = |found: &mut dyn FnMut(Vertex, Vertex, u64)| {
+    let each = |found: &mut dyn FnMut(Vertex, Vertex, u64)| -> Result<(), Stopped> {
         let mut pair = |p: Vertex, q: Vertex, walked| match (p < q, walked) {
             _ if p == q || p.index().max(q.index()) >= n => {}
             (true, false) => found(p, q, 0),
@@ -202,18 +217,21 @@ fn for_each_edge(mesh: &Mesh, faces: &Faces, mut edge: impl FnMut(Vertex, Vertex
             (false, true) => found(q, p, BACK),
         };
         for p in mesh.vertices() {
+            stop.check()?;
             mesh.ring(p).vertices().for_each(|q| pair(p, q, false));
         }
         for face in faces.iter().filter(|f| f.len() > 2) {
+            stop.check()?;
             let mut before = face[face.len() - 1];
             for &v in face {
                 pair(before, v, true);
                 before = v;
             }
         }
+        Ok(())
     };
     let mut ends = vec![0usize; n];
-    each(&mut |older, _, _| ends[older.index()] += 1);
+    each(&mut |older, _, _| ends[older.index()] += 1)?;
     let mut sum = 0;
     for end in &mut ends {
         sum += std::mem::replace(end, sum); // where the bucket starts; moves on to its end as it is filled
@@ -223,9 +241,10 @@ fn for_each_edge(mesh: &Mesh, faces: &Faces, mut edge: impl FnMut(Vertex, Vertex
         let end = &mut ends[older.index()];
         entries[*end] = ((younger.index() as u64) << FLAGS) | flags;
         *end += 1;
-    });
+    })?;
     let mut start = 0;
     for (p, &end) in mesh.vertices().zip(&ends) {
+        stop.check()?;
         let bucket = &mut entries[start..end];
         bucket.sort_unstable();
         for same in bucket.chunk_by(|a, b| a >> FLAGS == b >> FLAGS) {
@@ -236,6 +255,7 @@ fn for_each_edge(mesh: &Mesh, faces: &Faces, mut edge: impl FnMut(Vertex, Vertex
         }
         start = end;
     }
+    Ok(())
 }
 
 /// Adds a polygon's normal to its corners, weighted by `sin α / (|a| |b|)`, where `a` and `b` are the sides that meet

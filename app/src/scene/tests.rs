@@ -20,7 +20,7 @@ fn mesh(obj: &str) -> Mesh {
 }
 
 fn scene_of(mesh: &Mesh) -> Scene {
-    Scene::new(mesh, &faces(mesh, &Stop::new()).unwrap(), None)
+    Scene::new(mesh, &faces(mesh, &Stop::new()).unwrap(), None, &Stop::new()).unwrap()
 }
 
 fn scene(obj: &str) -> Scene {
@@ -184,7 +184,7 @@ fn far_away_meshes_keep_their_shape() {
 fn the_control_mesh_counts_only_while_it_is_shown() {
     let [mesh, control] = [OCTAHEDRON, CUBE].map(mesh);
     let of = |mesh| faces(mesh, &Stop::new()).unwrap();
-    let scene = Scene::new(&mesh, &of(&mesh), Some((&control, &of(&control))));
+    let scene = Scene::new(&mesh, &of(&mesh), Some((&control, &of(&control))), &Stop::new()).unwrap();
     let radius = |control| scene.bounds(&Style { control, ..Style::default() }).radius;
     assert!((radius(false) - 1.0).abs() < 1e-12);
     assert!((radius(true) - 3f64.sqrt()).abs() < 1e-12);
@@ -207,4 +207,13 @@ fn a_vertex_with_thirty_thousand_neighbours_takes_no_longer_than_others() {
     let scene = scene(&obj);
     assert_eq!(scene.mesh.triangles.len(), n as usize);
     assert_eq!((scene.mesh.inner_edge_count, scene.mesh.edges.len()), (n as u32, 2 * n as usize));
+}
+
+#[test]
+fn a_scene_that_nobody_waits_for_is_given_up() {
+    let mesh = mesh(OCTAHEDRON);
+    let stop = Stop::new();
+    let faces = faces(&mesh, &stop).unwrap();
+    stop.request(Stopped::ByUser);
+    assert!(matches!(Scene::new(&mesh, &faces, None, &stop), Err(Stopped::ByUser)));
 }

@@ -1,8 +1,8 @@
 //! Opening, saving, and files that change on disk.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
+use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 use vv::diagnostic::Severity;
@@ -11,6 +11,7 @@ use super::{Dialog, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::files;
+use crate::render::render_image;
 
 /// A file dialog that is gone sooner than this was never there.
 const NO_DIALOG: Duration = Duration::from_millis(500);
@@ -63,13 +64,9 @@ impl Session {
     }
 
     pub(super) fn set_program(&mut self, program: ProgramText) {
-        let (compilation, _) = files::compile(&program.path_or_name(), &program.text);
-        let builds_its_own = compilation.program.map(|p| p.start.is_some());
-        self.document.mesh = match (&self.document.mesh, builds_its_own) {
-            (MeshSource::BuiltIn(_), Some(true)) => MeshSource::Empty,
-            (MeshSource::Empty, Some(false)) => super::welcome_mesh(),
-            (mesh, _) => mesh.clone(),
-        };
+        if self.document.mesh == MeshSource::Empty {
+            self.mesh_chosen = false; // that was for the program before
+        }
         self.document.program = program;
         self.document.rule = None;
         self.document.params.clear();
@@ -81,7 +78,20 @@ impl Session {
         self.ask_now();
     }
 
+    /// A program that builds its mesh itself gets none, another one gets one, unless the user has chosen.
+    pub(super) fn suit_mesh(&mut self) {
+        let Some(program) = self.program.as_ref().filter(|_| !self.mesh_chosen) else { return };
+        if program.start.is_some() == (self.document.mesh == MeshSource::Empty) {
+            return;
+        }
+        self.document.mesh = if program.start.is_some() { MeshSource::Empty } else { super::welcome_mesh() };
+        self.running = None; // what is computed for the other mesh shall not be seen
+        self.fit = true;
+        self.ask_now();
+    }
+
     pub(super) fn use_mesh(&mut self, source: MeshSource) {
+        self.mesh_chosen = true;
         if matches!(source, MeshSource::File(_)) {
             self.document.generation = 0; // who knows how large it is
         }
@@ -127,6 +137,27 @@ impl Session {
                 Ok(()) => Ok(format!("saved {}", path.display())),
                 Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
             }
+        });
+    }
+
+    /// The picture as it is in the viewport.
+    pub(super) fn copy_image(&mut self) {
+        let (Some(frame), Some((size, style))) = (self.frame.clone(), self.view) else { return };
+        let (camera, clipboard) = (self.document.camera, Arc::clone(&self.clipboard));
+        self.in_background(move || {
+            let image = render_image(&frame.scene, &camera, &style, size).map_err(|error| error.to_string())?;
+            let (width, height) = (image.width() as usize, image.height() as usize);
+            let mut clipboard = clipboard.lock().unwrap_or_else(PoisonError::into_inner);
+            let failed = |error: arboard::Error| format!("the image cannot be copied: {error}");
+            let open = match clipboard.take() {
+                Some(open) => open,
+                None => arboard::Clipboard::new().map_err(failed)?,
+            };
+            clipboard
+                .insert(open)
+                .set_image(arboard::ImageData { width, height, bytes: image.into_raw().into() })
+                .map_err(failed)?;
+            Ok("image copied".to_owned())
         });
     }
 

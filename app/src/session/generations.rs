@@ -27,6 +27,7 @@ impl Session {
         self.playing = None;
         let Some(running) = self.running.take() else { return };
         self.due = None;
+        self.stopped = Some(running.request.generation);
         let shown = self.frame.as_ref().map(|f| &f.request);
         match shown {
             // A step was stopped: what is shown is a good result, of the generation before.
@@ -115,6 +116,7 @@ impl Session {
         self.due = None;
         self.running = None; // drops the ticket: the old work stops
         let ticket = self.worker.submit(request.clone());
+        self.stopped = None;
         self.running = Some(Running { ticket, request, since: Instant::now(), stepping: None });
     }
 
@@ -134,6 +136,7 @@ impl Session {
                 // Files of the last program that compiled stay watched: the error may be that one of them is gone.
                 self.included.extend(files);
                 self.watch_files();
+                self.suit_mesh();
             }
             Event::MeshRead { diagnostics } => self.problems.mesh_read(&request.recipe.mesh.name(), diagnostics),
             Event::Stepping(generation) => running.stepping = Some(generation),

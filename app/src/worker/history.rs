@@ -95,8 +95,7 @@ pub(super) fn frame(
     let statistics = statistics(&generation.mesh, &faces, stop)?;
     let faces_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
-    let scene = Arc::new(Scene::new(&generation.mesh, &faces, control));
-    stop.check()?;
+    let scene = Arc::new(Scene::new(&generation.mesh, &faces, control, stop)?);
     Ok(Frame {
         request: request.clone(),
         mesh: generation.mesh.clone(),

@@ -19,17 +19,17 @@ pub(super) struct Printer<'a> {
     lines: VecDeque<String>,
     bytes: usize,
     dropped: u64,
-    flushed: Instant,
+    flushed: Option<Instant>,
 }
 
 impl<'a> Printer<'a> {
     pub fn new(shared: &'a Shared, wake: &'a dyn Fn(), generation: u64) -> Self {
-        Self { shared, wake, generation, lines: VecDeque::new(), bytes: 0, dropped: 0, flushed: Instant::now() }
+        Self { shared, wake, generation, lines: VecDeque::new(), bytes: 0, dropped: 0, flushed: None }
     }
 
     /// Hands over what is left.
     pub fn flush(&mut self) {
-        self.flushed = Instant::now();
+        self.flushed = Some(Instant::now());
         if self.lines.is_empty() {
             return;
         }
@@ -48,7 +48,8 @@ impl Output for Printer<'_> {
             self.bytes -= self.lines.pop_front().map_or(0, |l| l.len());
             self.dropped += 1;
         }
-        if self.flushed.elapsed() >= FLUSH {
+        // The first line at once: perhaps nothing comes after it.
+        if self.flushed.is_none_or(|last| last.elapsed() >= FLUSH) {
             self.flush();
         }
         Ok(())

@@ -18,13 +18,13 @@ pub fn mesh(positions: &[[f64; 3]], polygons: &[&[u32]]) -> Mesh {
 }
 
 pub fn scene(mesh: &Mesh) -> Scene {
-    Scene::new(mesh, &faces(mesh, &Stop::new()).unwrap(), None)
+    Scene::new(mesh, &faces(mesh, &Stop::new()).unwrap(), None, &Stop::new()).unwrap()
 }
 
 /// The scene of a mesh with the control mesh it came from.
 pub fn scene_with_control(mesh: &Mesh, control: &Mesh) -> Scene {
     let of = |mesh| faces(mesh, &Stop::new()).unwrap();
-    Scene::new(mesh, &of(mesh), Some((control, &of(control))))
+    Scene::new(mesh, &of(mesh), Some((control, &of(control))), &Stop::new()).unwrap()
 }
 
 pub fn octahedron() -> Mesh {

@@ -331,9 +331,14 @@ fn dragging_turns_the_view_the_wheel_zooms_and_fit_brings_it_back() {
     let near = window.state().session().document.camera;
     assert!(near.distance < 0.9 * turned.distance);
     press(&mut window, Key::F);
-    let fitted = window.state().session().document.camera;
-    assert!((fitted.distance - start.distance).abs() < 1e-9);
+    let session = window.state().session();
+    let fitted = session.document.camera;
     assert_eq!(fitted.world_from_view, turned.world_from_view);
+    // As close as pictures without window stand.
+    let viewport = window.get_by_label("Viewport").rect();
+    let aspect = f64::from(viewport.width().round() / viewport.height().round());
+    let expected = session.frame().unwrap().scene.fit(turned, &session.document.style, aspect);
+    assert!((fitted.distance - expected.distance).abs() < 1e-4, "{fitted:?} {expected:?}");
 }
 
 #[test]
@@ -348,7 +353,8 @@ fn examples_and_meshes_are_chosen_from_menus() {
 
 #[test]
 fn a_program_that_builds_its_own_mesh_is_given_none_and_one_that_needs_one_gets_it_back() {
-    let mut window = octahedron();
+    let mut window = open(None, None);
+    press(&mut window, Key::Home);
     choose(&mut window, "Examples", "mountain.vv");
     assert_eq!(window.state().session().document.mesh, MeshSource::Empty);
     assert!(faces(&window) > 0);
@@ -418,4 +424,68 @@ fn without_a_mesh_the_viewport_says_what_to_do() {
     settle(&mut window);
     assert_eq!(faces(&window), 0);
     assert_eq!(window.state().session().stale(), None);
+}
+
+#[test]
+fn a_mesh_that_was_chosen_is_kept_also_for_a_program_that_builds_its_own() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::OpenExample("mountain.vv"));
+    settle(&mut window);
+    let session = window.state().session();
+    assert_eq!(session.document.mesh, MeshSource::BuiltIn("octahedron.obj".to_owned()));
+    assert_eq!(session.frame().unwrap().statistics.vertices, 6 + 7);
+}
+
+#[test]
+fn a_program_that_comes_to_build_its_own_mesh_while_it_is_typed_is_given_none() {
+    let mut window = open(None, None);
+    press(&mut window, Key::Home);
+    write(&mut window, "void start(mesh& S) { vertex v; add v to S; }");
+    let session = window.state().session();
+    assert_eq!(session.document.mesh, MeshSource::Empty);
+    assert_eq!(session.frame().unwrap().statistics.vertices, 1);
+    write(&mut window, "void f(mesh& S) { }");
+    assert_ne!(window.state().session().document.mesh, MeshSource::Empty);
+    assert!(faces(&window) > 10);
+}
+
+#[test]
+fn what_was_printed_before_a_stop_stays_on_the_console() {
+    let mut window = octahedron();
+    write(&mut window, "void f(mesh& S) { print(\"here it hangs\"); while (true) { } }");
+    window.state_mut().apply(Command::Step);
+    until(&mut window, "it prints", |s| s.console().len(s.console_generation()) == 1);
+    window.state_mut().apply(Command::Stop);
+    settle(&mut window);
+    let session = window.state().session();
+    assert_eq!(session.document.generation, 0);
+    assert_eq!(session.console().lines(session.console_generation(), 0..9), ["here it hangs"]);
+}
+
+#[test]
+fn after_a_dialog_the_editor_has_the_keys_again() {
+    let mut window = octahedron();
+    window.get_by_label("Program text").focus();
+    window.step();
+    window.get_by_label("Program text").type_text(" ");
+    settle(&mut window);
+    window.state_mut().apply(Command::NewProgram);
+    window.run_steps(3);
+    assert!(window.state().session().dialog.is_some());
+    assert!(!window.get_by_label("Program text").is_focused());
+    window.get_by_label("Cancel").click();
+    window.run_steps(4);
+    assert!(window.state().session().dialog.is_none());
+    assert!(window.get_by_label("Program text").is_focused());
+}
+
+#[test]
+fn a_narrow_window_leaves_the_viewport_its_room() {
+    let mut window = open(None, None);
+    window.set_size(egui::vec2(640.0, 480.0));
+    window.run_steps(4);
+    let viewport = window.get_by_label("Viewport").rect();
+    assert!(viewport.width() >= 160.0, "{viewport}");
+    // The inspector is not pushed out either.
+    assert!(window.get_by_label("Fit view").rect().left() > viewport.right());
 }
