@@ -25,11 +25,16 @@ pub(super) struct Chooser {
 
 impl Session {
     pub(super) fn unless_unsaved(&mut self, command: Command, action: impl FnOnce(&mut Self)) {
-        if self.document.program.is_modified() {
+        if self.document.program.is_modified() || self.is_orphan() {
             self.dialog = Some(Dialog::Unsaved { then: Box::new(command) });
         } else {
             action(self);
         }
+    }
+
+    /// Whether the program's file is gone, so that the text stands in the editor alone.
+    fn is_orphan(&self) -> bool {
+        self.document.program.path.as_ref().is_some_and(|path| !path.exists())
     }
 
     pub(super) fn answer_unsaved(&mut self, answer: Answer) {
@@ -39,6 +44,9 @@ impl Session {
             self.dialog = None;
             // The saved text comes back, so that what follows finds nothing to lose.
             self.document.program.text = Arc::clone(&self.document.program.saved);
+            if self.is_orphan() {
+                self.document.program.path = None;
+            }
             self.ask_now();
             self.apply(then);
             return;

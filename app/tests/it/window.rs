@@ -489,3 +489,18 @@ fn a_narrow_window_leaves_the_viewport_its_room() {
     // The inspector is not pushed out either.
     assert!(window.get_by_label("Fit view").rect().left() > viewport.right());
 }
+
+#[test]
+fn a_text_whose_file_is_gone_is_asked_about_before_it_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.vv");
+    std::fs::write(&path, PROGRAM).unwrap();
+    let mut window = open(None, Some(&path));
+    std::fs::remove_file(&path).unwrap();
+    window.state_mut().apply(Command::NewProgram);
+    window.run_steps(3);
+    assert!(window.state().session().dialog.is_some());
+    click(&mut window, "Don't save");
+    assert!(window.state().session().dialog.is_none());
+    assert_eq!(&*window.state().session().document.program.text, "");
+}
