@@ -4,12 +4,90 @@
 //! ([`crate::mesh::close`]). If it fails the copy is dropped, so a failed step leaves the mesh as it was.
 
 mod interpret;
+mod native;
 mod text;
+
+use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::{FunctionId, GlobalId, Program};
 use crate::mesh::{Mesh, Value};
 use crate::stop::{Stop, Stopped};
+
+#[doc(hidden)]
+pub use native::Mutation;
+
+/// Who runs a program. All give the same results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// The interpreter, which defines what programs mean.
+    Interpret,
+    /// Machine code: slower to begin, some forty times as fast.
+    #[default]
+    Native,
+}
+
+/// A program ready to run, with what was compiled for it. Make one for a program and keep it from step to step.
+#[derive(Debug)]
+pub struct Machine {
+    program: Arc<Program>,
+    native: Option<Result<native::Native, native::Refused>>,
+}
+
+impl Machine {
+    /// Prepares a program; for [`Engine::Native`] this compiles it, a few milliseconds for a page of text.
+    #[must_use]
+    pub fn new(program: Arc<Program>, engine: Engine) -> Self {
+        Self::with_mutation(program, engine, Mutation::None)
+    }
+
+    /// For the test of the tests: compiles something wrongly.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_mutation(program: Arc<Program>, engine: Engine, mutation: Mutation) -> Self {
+        let native = (engine == Engine::Native).then(|| native::compile(&program, mutation));
+        Self { program, native }
+    }
+
+    /// The program.
+    #[must_use]
+    pub fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    /// Who runs it: the interpreter where machine code was refused, too.
+    #[must_use]
+    pub fn engine(&self) -> Engine {
+        if matches!(self.native, Some(Ok(_))) { Engine::Native } else { Engine::Interpret }
+    }
+
+    /// Why the interpreter runs it though machine code was asked for.
+    #[must_use]
+    pub fn refusal(&self) -> Option<String> {
+        match &self.native {
+            Some(Err(refused)) => Some(format!("the program runs in the interpreter: {refused}")),
+            _ => None,
+        }
+    }
+
+    /// As [`run`].
+    ///
+    /// # Errors
+    /// As [`run`].
+    pub fn run(
+        &self,
+        function: FunctionId,
+        mesh: &Mesh,
+        generation: u64,
+        settings: &Settings,
+        output: &mut dyn Output,
+    ) -> Result<Mesh, Failure> {
+        match &self.native {
+            Some(Ok(native)) => native.run(&self.program, function, mesh, generation, settings, output),
+            _ => run(&self.program, function, mesh, generation, settings, output),
+        }
+    }
+}
 
 /// What a run may use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +166,7 @@ pub enum FailureKind {
     OutputClosed,
 }
 
-/// Runs `function` (a rule or `start`) on a copy of `mesh` as generation `generation`: 0 for `start`, n for the n-th
+/// Interprets `function` (a rule or `start`) on a copy of `mesh` as generation `generation`: 0 for `start`, n for the n-th
 /// step. The program's properties are declared on the mesh first. The result is not closed.
 ///
 /// # Errors

@@ -37,8 +37,10 @@ pub use ring::{EditError, Ring};
 pub use set::VertexSet;
 
 use ring::Rings;
+pub(crate) use ring::{FRESH_CAPACITY, Head};
 
 /// A vertex of the universe. Vertices compare in order of creation, and `None < Some(v)`: null comes first.
+#[repr(transparent)]
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Vertex(NonZeroU32);
 
@@ -73,6 +75,16 @@ impl fmt::Debug for Vertex {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the mesh has no room for more than 4 billion vertices or neighbours")]
 pub struct Full;
+
+/// The arrays of a universe: one head, position and value of each vertex property per vertex, one value of each edge
+/// property per slot.
+pub(crate) struct Arrays<'a> {
+    pub(crate) heads: &'a mut Column<Head>,
+    pub(crate) slots: &'a mut Column<Option<Vertex>>,
+    pub(crate) positions: &'a mut Column<DVec3>,
+    pub(crate) vertex_properties: &'a mut [Property],
+    pub(crate) edge_properties: &'a mut [Property],
+}
 
 /// A vertex–vertex rotation system with positions and properties, and the vertex set `S` that rules receive.
 #[derive(Debug, Clone, Default)]
@@ -287,6 +299,27 @@ impl Mesh {
             }
         }
         Ok(())
+    }
+
+    pub(crate) fn heads(&self) -> &[Head] {
+        self.rings.heads()
+    }
+
+    /// The arena of the rings; what no head names means nothing.
+    pub(crate) fn slots(&self) -> &[Option<Vertex>] {
+        self.rings.slots()
+    }
+
+    /// The arrays themselves, unshared, for code that keeps their invariants itself.
+    pub(crate) fn arrays(&mut self) -> Arrays<'_> {
+        let (heads, slots, edge_properties) = self.rings.arrays();
+        Arrays {
+            heads,
+            slots,
+            positions: &mut self.positions,
+            vertex_properties: &mut self.vertex_properties,
+            edge_properties,
+        }
     }
 
     /// Keeps the vertices of [`Mesh::set`], renumbered densely in order of creation; entries of rings that name others

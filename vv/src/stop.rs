@@ -34,6 +34,11 @@ impl Stop {
         let _ = self.0.compare_exchange(0, code, Ordering::Relaxed, Ordering::Relaxed);
     }
 
+    /// The flag itself, zero while nothing was requested, for compiled code to poll.
+    pub(crate) fn flag(&self) -> &AtomicU8 {
+        &self.0
+    }
+
     /// Polled where work could go on for long. Costs one relaxed load.
     ///
     /// # Errors

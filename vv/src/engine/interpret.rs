@@ -19,6 +19,7 @@ use crate::ir::{Conversion, Expr, ExprKind, Function, FunctionId, LocalId, Progr
 use crate::mesh::{self, Mesh, Value, Vertex, VertexSet};
 use crate::source::Span;
 
+pub(super) use fault::with_calls;
 use fault::{Fault, Run};
 use old::Old;
 use origin::Trace;
@@ -367,7 +368,7 @@ fn megabytes(bytes: usize) -> String {
 }
 
 /// Converts as an assignment does; `None` if it does not fit or types have nothing to do with each other.
-fn convert_to(value: Value, ty: mesh::Type) -> Option<Value> {
+pub(super) fn convert_to(value: Value, ty: mesh::Type) -> Option<Value> {
     use mesh::Type::{Bool, Double, Int};
     let conversion = match (value.ty(), ty) {
         (from, to) if from == to => return Some(value),

@@ -12,6 +12,18 @@ impl<T: Clone> Column<T> {
     pub fn edit(&mut self) -> &mut Vec<T> {
         Arc::make_mut(&mut self.0)
     }
+
+    /// The array for writing, with room for `capacity` elements. A shared one is copied, with that room at once.
+    pub(crate) fn edit_with_capacity(&mut self, capacity: usize) -> &mut Vec<T> {
+        if Arc::get_mut(&mut self.0).is_none() {
+            let mut copy = Vec::with_capacity(capacity.max(self.0.len()));
+            copy.extend_from_slice(&self.0);
+            self.0 = Arc::new(copy);
+        }
+        let values = Arc::make_mut(&mut self.0);
+        values.reserve_exact(capacity.saturating_sub(values.len()));
+        values
+    }
 }
 
 impl<T> Column<T> {
@@ -19,6 +31,16 @@ impl<T> Column<T> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.0.capacity() * size_of::<T>()
+    }
+
+    /// Whether a clone shares it.
+    pub(crate) fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.0) > 1
+    }
+
+    /// How many elements the array has room for.
+    pub(crate) fn capacity(&self) -> usize {
+        self.0.capacity()
     }
 
     /// Whether the two are one array.

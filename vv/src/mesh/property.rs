@@ -196,7 +196,7 @@ impl Values {
         }
     }
 
-    pub(super) fn resize(&mut self, n: usize, fill: Value) {
+    pub(crate) fn resize(&mut self, n: usize, fill: Value) {
         match (self, fill) {
             (Self::Bool(c), Value::Bool(x)) => c.edit().resize(n, x),
             (Self::Int(c), Value::Int(x)) => c.edit().resize(n, x),

@@ -5,7 +5,7 @@ use rustc_hash::FxHashSet;
 use super::{Column, Full, Property, Value, Vertex};
 
 /// Room a ring gets when it is first written: six neighbours is what most triangle meshes settle at.
-const FRESH_CAPACITY: u32 = 6;
+pub(crate) const FRESH_CAPACITY: u32 = 6;
 
 /// Above this many items a duplicate is looked for by hashing rather than by comparing all pairs.
 const PAIRWISE_LIMIT: usize = 32;
@@ -100,11 +100,13 @@ pub(super) enum Side {
     Before,
 }
 
+/// Where a ring lies in the arena, how long it is, and how long it may grow there.
+#[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
-struct Head {
-    offset: u32,
-    len: u32,
-    capacity: u32,
+pub(crate) struct Head {
+    pub(crate) offset: u32,
+    pub(crate) len: u32,
+    pub(crate) capacity: u32,
 }
 
 impl Head {
@@ -128,6 +130,18 @@ impl Rings {
 
     pub(super) fn slot_count(&self) -> usize {
         self.slots.len()
+    }
+
+    pub(super) fn heads(&self) -> &[Head] {
+        &self.heads
+    }
+
+    pub(super) fn slots(&self) -> &[Option<Vertex>] {
+        &self.slots
+    }
+
+    pub(super) fn arrays(&mut self) -> (&mut Column<Head>, &mut Column<Option<Vertex>>, &mut [Property]) {
+        (&mut self.heads, &mut self.slots, &mut self.properties)
     }
 
     pub(super) fn bytes(&self) -> usize {

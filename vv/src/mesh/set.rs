@@ -51,6 +51,17 @@ impl VertexSet {
         self.0.contains(v)
     }
 
+    /// The members in order of addition as they lie in memory, `None` where one was removed.
+    pub(crate) fn order(&self) -> &[Option<Vertex>] {
+        &self.0.order
+    }
+
+    /// The members of a set that is one ascending array and not shared: a larger vertex may be pushed.
+    pub(crate) fn ascending(&mut self) -> Option<&mut Vec<Option<Vertex>>> {
+        let members = Arc::get_mut(&mut self.0)?;
+        members.places.is_none().then_some(&mut members.order)
+    }
+
     /// The members in order of addition.
     pub fn iter(&self) -> impl Iterator<Item = Vertex> {
         self.0.order.iter().copied().flatten()

@@ -7,6 +7,7 @@
     reason = "a test that panics has failed"
 )]
 
+mod engines;
 mod files;
 mod manual;
 mod mesh;

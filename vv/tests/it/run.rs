@@ -8,7 +8,7 @@ mod boundary;
 mod budgets;
 mod errors;
 mod functions;
-mod generated;
+pub mod generated;
 mod loops;
 mod numbers;
 mod old;
@@ -17,13 +17,15 @@ mod properties;
 mod sets;
 
 use vv::diagnostic::Diagnostic;
-use vv::engine::{Settings, run};
+use vv::engine::Settings;
 use vv::ir::Program;
 use vv::mesh::Mesh;
 use vv::source::{Sources, Span};
 
+use crate::engines::run;
+
 /// A unit octahedron; `x` is its vertex on the positive x axis, `X` that on the negative one.
-const OCTAHEDRON: &str = "void start(mesh& S) {
+pub const OCTAHEDRON: &str = "void start(mesh& S) {
   vertex x, y, z, X, Y, Z;
   x$pos = vec(1, 0, 0); y$pos = vec(0, 1, 0); z$pos = vec(0, 0, 1);
   X$pos = vec(-1, 0, 0); Y$pos = vec(0, -1, 0); Z$pos = vec(0, 0, -1);
@@ -34,7 +36,7 @@ const OCTAHEDRON: &str = "void start(mesh& S) {
 ";
 
 /// The square of two triangles abc and acd.
-const SQUARE: &str = "void start(mesh& S) {
+pub const SQUARE: &str = "void start(mesh& S) {
   vertex a, b, c, d;
   b$pos = vec(1, 0, 0); c$pos = vec(1, 1, 0); d$pos = vec(0, 1, 0);
   make {b, c, d, null} nb_of a; make {c, a, null} nb_of b;

@@ -53,18 +53,25 @@ impl Fault {
 impl Machine<'_> {
     #[cold]
     pub(super) fn fail_with(&self, kind: FailureKind, span: Span, message: impl Into<String>) -> Box<Fault> {
-        let mut diagnostic = Diagnostic::error(span, message);
         let open = self.frames.iter().rev().filter_map(|f| Some((f.function.name.clone(), f.call?)));
         let depth = self.frames.len().saturating_sub(1);
-        if depth <= 2 * CALLS_SHOWN {
-            diagnostic.calls = open.collect();
-        } else {
-            let ends = |&(i, _): &(usize, _)| i < CALLS_SHOWN || i >= depth - CALLS_SHOWN;
-            diagnostic.calls = open.enumerate().filter(ends).map(|(_, call)| call).collect();
-            let left_out = depth - 2 * CALLS_SHOWN;
-            diagnostic =
-                diagnostic.evidence(format!("{depth} calls are open; {left_out} in the middle are not listed"));
-        }
+        let diagnostic = with_calls(Diagnostic::error(span, message), depth, open);
         Box::new(Fault { failure: Failure { kind, diagnostic: Box::new(diagnostic) }, of_null: false })
     }
+}
+
+/// Lists the calls that are open, innermost first, those in the middle left out where they are many.
+pub(in crate::engine) fn with_calls(
+    mut diagnostic: Diagnostic,
+    depth: usize,
+    open: impl Iterator<Item = (String, Span)>,
+) -> Diagnostic {
+    if depth <= 2 * CALLS_SHOWN {
+        diagnostic.calls = open.collect();
+        return diagnostic;
+    }
+    let ends = |&(i, _): &(usize, _)| i < CALLS_SHOWN || i >= depth - CALLS_SHOWN;
+    diagnostic.calls = open.enumerate().filter(ends).map(|(_, call)| call).collect();
+    let left_out = depth - 2 * CALLS_SHOWN;
+    diagnostic.evidence(format!("{depth} calls are open; {left_out} in the middle are not listed"))
 }

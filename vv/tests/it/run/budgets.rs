@@ -3,11 +3,12 @@
 use std::thread;
 use std::time::Duration;
 
-use vv::engine::{Failure, FailureKind, Limits, Settings, run};
+use vv::engine::{Failure, FailureKind, Limits, Settings};
 use vv::mesh::Mesh;
 use vv::stop::{Stop, Stopped};
 
 use super::{check, compile};
+use crate::engines::run;
 
 #[track_caller]
 fn fail(text: &str, settings: &Settings) -> Failure {

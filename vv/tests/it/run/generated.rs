@@ -69,13 +69,13 @@ fn check_rings(mesh: &Mesh, text: &str) {
 }
 
 /// Writes random programs.
-struct Writer {
-    random: Random,
-    text: String,
+pub struct Writer {
+    pub random: Random,
+    pub text: String,
 }
 
 impl Writer {
-    fn program(mut self) -> String {
+    pub fn program(mut self) -> String {
         self.text = format!("vertex {{ vertex mate; int n; }}; edge {{ double s; }};\n{OCTAHEDRON}");
         self.text.push_str(
             "static void other(mesh& S, mesh T, vertex a, vertex b, int i, double x) {\n  vertex c = a, d;\n",

@@ -1,0 +1,192 @@
+//! What compiled code and the runtime share: one block of memory, a header and words whose number the program decides.
+
+use std::mem::offset_of;
+
+use crate::builtins::Builtin;
+use crate::ir::Program;
+use crate::mesh::{self, Head};
+
+/// The header. Compiled code reads and writes it at fixed offsets; pointers and capacities are made anew by the runtime
+/// whenever an array may have moved.
+#[repr(C)]
+pub(super) struct Context {
+    /// The [`super::run::Run`] behind it.
+    pub(super) run: *mut u8,
+    /// Not zero once a stop was requested.
+    pub(super) stop: *const u8,
+    /// Below this address a function may not begin.
+    pub(super) stack_limit: usize,
+    /// Calls open, and how many may be.
+    pub(super) depth: u64,
+    pub(super) max_depth: u64,
+    pub(super) heads: *mut Head,
+    pub(super) slots: *mut u32,
+    pub(super) positions: *mut f64,
+    /// Vertices there are, and that all per-vertex arrays have room for.
+    pub(super) vertex_count: u64,
+    pub(super) vertex_capacity: u64,
+    /// Slots in use, and that the arena has room for, beside [`PADDING`].
+    pub(super) slot_len: u64,
+    pub(super) slot_capacity: u64,
+    /// Whether values lie beside the slots: then only the runtime edits rings.
+    pub(super) has_edge_values: u64,
+    pub(super) old_heads: *const Head,
+    pub(super) old_slots: *const u32,
+    pub(super) old_positions: *const f64,
+    /// All vertices of smaller index have an old value; others are asked for.
+    pub(super) old_prefix: u64,
+    pub(super) sets: *mut RawSet,
+    pub(super) set_count: u64,
+    /// Rings being walked while they are edited, one after the other, in `walk_len` words.
+    pub(super) walk: *const u32,
+    pub(super) walk_len: u64,
+    /// Where compiled code was stopped, an index of its sites.
+    pub(super) site: u64,
+    /// Operands and results of runtime functions, results of compiled ones.
+    pub(super) value: [u64; 12],
+}
+
+/// A set whose members compiled code may push.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub(super) struct RawSet {
+    pub(super) order: *mut u32,
+    pub(super) len: u64,
+    /// 0 where only the runtime may add.
+    pub(super) capacity: u64,
+    /// The largest member.
+    pub(super) last: u64,
+}
+
+/// Slots that can be read, though they mean nothing, behind the last one in use.
+pub(super) const PADDING: usize = 24;
+
+/// The last operands and result of a pure function at one of its calls.
+pub(super) struct Memo {
+    pub(super) builtin: Builtin,
+    /// The first of its [`MEMO_WORDS`].
+    pub(super) word: usize,
+}
+
+/// Where the words behind the header lie.
+pub(super) struct Layout {
+    vertex_columns: usize,
+    old_vertex_columns: usize,
+    globals: usize,
+    given: usize,
+    memos: usize,
+    words: usize,
+}
+
+const HEADER: usize = size_of::<Context>() / 8;
+const GLOBAL_WORDS: usize = 3;
+/// Two operands and the result.
+pub(super) const MEMO_WORDS: usize = 3;
+
+impl Layout {
+    pub(super) fn new(program: &Program) -> Self {
+        let vertex_columns = HEADER;
+        let old_vertex_columns = vertex_columns + program.vertex_properties.len();
+        let globals = old_vertex_columns + program.vertex_properties.len();
+        let given = globals + GLOBAL_WORDS * program.globals.len();
+        let memos = given + program.globals.len();
+        Self { vertex_columns, old_vertex_columns, globals, given, memos, words: memos }
+    }
+
+    /// Makes room for one more memo.
+    pub(super) fn add_memo(&mut self) -> usize {
+        self.words += MEMO_WORDS;
+        (self.words - MEMO_WORDS - self.memos) / MEMO_WORDS
+    }
+
+    /// Words of the whole block.
+    pub(super) fn words(&self) -> usize {
+        self.words
+    }
+
+    pub(super) fn vertex_column(&self, property: usize, old: bool) -> usize {
+        if old { self.old_vertex_columns + property } else { self.vertex_columns + property }
+    }
+
+    pub(super) fn global(&self, index: usize) -> usize {
+        self.globals + GLOBAL_WORDS * index
+    }
+
+    pub(super) fn given(&self, index: usize) -> usize {
+        self.given + index
+    }
+
+    pub(super) fn memo(&self, index: usize) -> usize {
+        self.memos + MEMO_WORDS * index
+    }
+}
+
+/// Byte offset of a word.
+pub(super) fn byte_offset(word: usize) -> i32 {
+    (8 * word) as i32
+}
+
+/// Bytes of a value in a column.
+pub(super) fn value_size(ty: mesh::Type) -> i64 {
+    match ty {
+        mesh::Type::Bool => 1,
+        mesh::Type::Vertex => 4,
+        mesh::Type::Int | mesh::Type::Double => 8,
+        mesh::Type::Vec => 24,
+    }
+}
+
+/// Byte offsets of the header's fields.
+macro_rules! offsets {
+    ($($name:ident $field:ident)*) => {
+        $(pub(super) const $name: i32 = offset_of!(Context, $field) as i32;)*
+    };
+}
+
+offsets! {
+    STOP stop
+    STACK_LIMIT stack_limit
+    DEPTH depth
+    MAX_DEPTH max_depth
+    HEADS heads
+    SLOTS slots
+    POSITIONS positions
+    VERTEX_COUNT vertex_count
+    VERTEX_CAPACITY vertex_capacity
+    SLOT_LEN slot_len
+    SLOT_CAPACITY slot_capacity
+    HAS_EDGE_VALUES has_edge_values
+    OLD_HEADS old_heads
+    OLD_SLOTS old_slots
+    OLD_POSITIONS old_positions
+    OLD_PREFIX old_prefix
+    SETS sets
+    SET_COUNT set_count
+    WALK walk
+    WALK_LEN walk_len
+    SITE site
+    VALUE value
+}
+
+pub(super) const HEAD_SIZE: i64 = size_of::<Head>() as i64;
+pub(super) const HEAD_OFFSET: i32 = offset_of!(Head, offset) as i32;
+pub(super) const HEAD_LEN: i32 = offset_of!(Head, len) as i32;
+pub(super) const HEAD_CAPACITY: i32 = offset_of!(Head, capacity) as i32;
+
+pub(super) const SET_SIZE: i64 = size_of::<RawSet>() as i64;
+pub(super) const SET_ORDER: i32 = offset_of!(RawSet, order) as i32;
+pub(super) const SET_LEN: i32 = offset_of!(RawSet, len) as i32;
+pub(super) const SET_CAPACITY: i32 = offset_of!(RawSet, capacity) as i32;
+pub(super) const SET_LAST: i32 = offset_of!(RawSet, last) as i32;
+
+/// What a compiled function returns.
+pub(super) mod status {
+    /// It came to its end.
+    pub(crate) const DONE: u32 = 0;
+    /// It cannot go on; the interpreter says why, or does it.
+    pub(crate) const REPEAT: u32 = 1;
+    /// A stop was requested, at [`super::Context::site`].
+    pub(crate) const STOPPED: u32 = 2;
+    /// The output was closed, at [`super::Context::site`].
+    pub(crate) const CLOSED: u32 = 3;
+}

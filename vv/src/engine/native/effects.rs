@@ -1,0 +1,470 @@
+//! What functions and statements do, as far as it decides how they are compiled.
+
+use crate::ir::{
+    Argument, Expr, ExprKind, Function, FunctionId, Item, LocalId, Passing, Place, PrintItem, Program, Ring, Stmt,
+    StmtKind, Type,
+};
+
+/// Functions up to this size stand in for their calls.
+const INLINE_SIZE: usize = 100;
+
+/// What a piece of a program may do, called functions included.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Effects {
+    /// Edits a ring as it is.
+    pub(super) edits: bool,
+    /// Makes old values.
+    pub(super) synchronizes: bool,
+    /// Creates vertices.
+    pub(super) creates: bool,
+}
+
+impl Effects {
+    fn join(self, other: Self) -> Self {
+        Self {
+            edits: self.edits || other.edits,
+            synchronizes: self.synchronizes || other.synchronizes,
+            creates: self.creates || other.creates,
+        }
+    }
+}
+
+/// Which old values any expression of the program reads.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OldReads {
+    pub(super) rings: bool,
+    pub(super) positions: bool,
+    pub(super) vertex_properties: Vec<bool>,
+    pub(super) edges: bool,
+}
+
+/// How a variable is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Keeping {
+    /// It has one value from its declaration on.
+    Fixed,
+    /// It is assigned.
+    Variable,
+    /// Its address is taken.
+    Memory,
+}
+
+/// Facts of a function.
+#[derive(Debug, Clone)]
+pub(super) struct FunctionFacts {
+    pub(super) effects: Effects,
+    /// Stands in for its calls.
+    pub(super) inline: bool,
+    /// How many calls may be open within it that are not calls of compiled functions.
+    pub(super) inline_depth: u32,
+    /// Can be reached from a rule, `start` or a global.
+    pub(super) reached: bool,
+    pub(super) keeping: Vec<Keeping>,
+}
+
+/// Facts of a program.
+pub(super) struct Facts {
+    pub(super) functions: Vec<FunctionFacts>,
+    pub(super) old_reads: OldReads,
+}
+
+impl Facts {
+    pub(super) fn of(program: &Program) -> Self {
+        let n = program.functions.len();
+        let own: Vec<Own> = program.functions.iter().map(|f| Own::of(&f.body)).collect();
+        let mut effects: Vec<Effects> = own.iter().map(|o| o.effects).collect();
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for i in 0..n {
+                let joined = own[i].calls.iter().fold(effects[i], |e, &c| e.join(effects[c]));
+                changed |= joined != effects[i];
+                effects[i] = joined;
+            }
+        }
+        let order = callees_first(&own);
+        let mut inline = vec![false; n];
+        let mut inline_depth = vec![0; n];
+        let mut size: Vec<usize> = own.iter().map(|o| o.size).collect();
+        for &i in &order.sorted {
+            for &c in &own[i].calls {
+                if inline[c] {
+                    size[i] = size[i].saturating_add(size[c]);
+                    inline_depth[i] = inline_depth[i].max(inline_depth[c] + 1);
+                }
+            }
+            let function = &program.functions[i];
+            let sets =
+                function.locals.iter().enumerate().any(|(l, local)| {
+                    local.ty == Type::Mesh && function.parameters.get(l) != Some(&Passing::Reference)
+                });
+            inline[i] = !order.cyclic[i] && size[i] <= INLINE_SIZE && !sets && function.returns != Type::Mesh;
+        }
+        let roots = program.rules.iter().chain(&program.start).map(|f| f.0 as usize);
+        let mut open: Vec<usize> = roots.chain(own_of_globals(program).calls).collect();
+        let mut reached = vec![false; n];
+        while let Some(i) = open.pop() {
+            if i < n && !std::mem::replace(&mut reached[i], true) {
+                open.extend(&own[i].calls);
+            }
+        }
+        let functions = (0..n)
+            .map(|i| FunctionFacts {
+                effects: effects[i],
+                inline: inline[i],
+                inline_depth: inline_depth[i],
+                reached: reached[i],
+                keeping: keeping(&program.functions[i], &inline),
+            })
+            .collect();
+        Self { functions, old_reads: old_reads(program) }
+    }
+
+    pub(super) fn function(&self, id: FunctionId) -> Option<&FunctionFacts> {
+        self.functions.get(id.0 as usize)
+    }
+
+    /// Whether any function that can be reached creates vertices.
+    pub(super) fn creates(&self) -> bool {
+        self.functions.iter().any(|f| f.reached && f.effects.creates)
+    }
+
+    /// What statements do.
+    pub(super) fn effects_of(&self, body: &[Stmt], update: &[Expr], condition: Option<&Expr>) -> Effects {
+        let mut own = Own::default();
+        each(body, &mut |node| own.note(node));
+        for e in update.iter().chain(condition) {
+            each_in(e, &mut |node| own.note(node));
+        }
+        let called = own.calls.iter().filter_map(|&c| self.functions.get(c));
+        called.fold(own.effects, |e, f| e.join(f.effects))
+    }
+}
+
+/// Size and effects of a function without those it calls.
+#[derive(Default)]
+struct Own {
+    effects: Effects,
+    calls: Vec<usize>,
+    size: usize,
+}
+
+impl Own {
+    fn of(body: &[Stmt]) -> Self {
+        let mut own = Self::default();
+        each(body, &mut |node| own.note(node));
+        own
+    }
+
+    fn note(&mut self, node: Node<'_>) {
+        self.size += 1;
+        match node {
+            Node::Stmt(s) => match s.kind {
+                StmtKind::Make { .. } | StmtKind::Erase { .. } | StmtKind::Replace { .. } | StmtKind::Splice { .. } => {
+                    self.effects.edits = true;
+                    self.size += 8;
+                }
+                StmtKind::Synchronize(_) => {
+                    // The arrays themselves move too.
+                    self.effects.edits = true;
+                    self.effects.synchronizes = true;
+                }
+                _ => {}
+            },
+            Node::Expr(e) => {
+                if let ExprKind::Call(f, _) = e.kind {
+                    self.calls.push(f.0 as usize);
+                }
+                self.effects.creates |= matches!(e.kind, ExprKind::Create);
+            }
+            Node::Place(_) | Node::Ring(_) => {}
+        }
+    }
+}
+
+fn own_of_globals(program: &Program) -> Own {
+    let mut own = Own::default();
+    for global in &program.globals {
+        each_in(&global.init, &mut |node| own.note(node));
+    }
+    own
+}
+
+struct Order {
+    /// Functions after those they call, cycles cut.
+    sorted: Vec<usize>,
+    /// Whether a function can come to be called from itself.
+    cyclic: Vec<bool>,
+}
+
+fn callees_first(own: &[Own]) -> Order {
+    let n = own.len();
+    let mut order = Order { sorted: Vec::with_capacity(n), cyclic: vec![false; n] };
+    let mut seen = vec![false; n];
+    for root in 0..n {
+        let mut open = vec![(root, 0)];
+        if std::mem::replace(&mut seen[root], true) {
+            continue;
+        }
+        while let Some((i, next)) = open.pop() {
+            match own[i].calls.get(next) {
+                Some(&c) => {
+                    open.push((i, next + 1));
+                    if c < n && !std::mem::replace(&mut seen[c], true) {
+                        open.push((c, 0));
+                    }
+                }
+                None => order.sorted.push(i),
+            }
+        }
+    }
+    for start in 0..n {
+        let mut reached = vec![false; n];
+        let mut open = own[start].calls.clone();
+        while let Some(i) = open.pop() {
+            if i < n && !std::mem::replace(&mut reached[i], true) {
+                open.extend(&own[i].calls);
+            }
+        }
+        order.cyclic[start] = reached[start];
+    }
+    order
+}
+
+fn keeping(function: &Function, inline: &[bool]) -> Vec<Keeping> {
+    let mut definitions = vec![0_u32; function.locals.len()];
+    let mut addressed = vec![false; function.locals.len()];
+    let mut passed = vec![false; function.locals.len()];
+    for n in definitions.iter_mut().take(function.parameters.len()) {
+        *n = 1;
+    }
+    let mut define = |local: LocalId| {
+        if let Some(n) = definitions.get_mut(local.0 as usize) {
+            *n += 1;
+        }
+    };
+    each(&function.body, &mut |node| match node {
+        Node::Stmt(s) => match &s.kind {
+            StmtKind::Declare { local, .. }
+            | StmtKind::ForallSet { local, .. }
+            | StmtKind::ForallRing { local, .. } => define(*local),
+            _ => {}
+        },
+        Node::Expr(e) => match &e.kind {
+            ExprKind::Assign { place, .. } | ExprKind::Step(place, ..) => {
+                if let Some(local) = variable_of(place) {
+                    define(local);
+                }
+            }
+            ExprKind::Call(f, arguments) => {
+                for argument in arguments {
+                    if let Argument::Reference(local) = argument {
+                        let i = local.0 as usize;
+                        if let (Some(a), Some(p)) = (addressed.get_mut(i), passed.get_mut(i)) {
+                            *p = true;
+                            *a |= !inline.get(f.0 as usize).copied().unwrap_or(false);
+                        }
+                    }
+                }
+            }
+            _ => {}
+        },
+        Node::Place(_) | Node::Ring(_) => {}
+    });
+    (0..function.locals.len())
+        .map(|i| {
+            let reference = function.parameters.get(i) == Some(&Passing::Reference);
+            if addressed[i] || reference {
+                Keeping::Memory
+            } else if definitions[i] > 1 || passed[i] {
+                Keeping::Variable
+            } else {
+                Keeping::Fixed
+            }
+        })
+        .collect()
+}
+
+/// The variable that a place is or is part of.
+fn variable_of(place: &Place) -> Option<LocalId> {
+    match place {
+        Place::Local(local) => Some(*local),
+        Place::Coordinate(base, _) => variable_of(base),
+        _ => None,
+    }
+}
+
+fn old_reads(program: &Program) -> OldReads {
+    let mut reads = OldReads { vertex_properties: vec![false; program.vertex_properties.len()], ..OldReads::default() };
+    let mut note = |node: Node<'_>| match node {
+        Node::Ring(ring) => reads.rings |= ring.old,
+        Node::Place(Place::Position { old, .. }) => reads.positions |= old,
+        Node::Place(Place::VertexProperty { property, old, .. }) => {
+            if let Some(read) = reads.vertex_properties.get_mut(*property as usize) {
+                *read |= old;
+            }
+        }
+        Node::Place(Place::EdgeProperty { old, .. }) => reads.edges |= old,
+        _ => {}
+    };
+    for function in &program.functions {
+        each(&function.body, &mut note);
+    }
+    for global in &program.globals {
+        each_in(&global.init, &mut note);
+    }
+    reads
+}
+
+/// A part of a program.
+pub(super) enum Node<'a> {
+    Stmt(&'a Stmt),
+    Expr(&'a Expr),
+    Place(&'a Place),
+    Ring(&'a Ring),
+}
+
+/// Visits statements and all that is in them.
+pub(super) fn each<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(Node<'a>)) {
+    for s in body {
+        stacker::maybe_grow(super::RED_ZONE, super::STACK_SEGMENT, || each_in_statement(s, visit));
+    }
+}
+
+fn each_in_statement<'a>(s: &'a Stmt, visit: &mut dyn FnMut(Node<'a>)) {
+    visit(Node::Stmt(s));
+    match &s.kind {
+        StmtKind::Declare { init, .. } => {
+            if let Some(e) = init {
+                each_in(e, visit);
+            }
+        }
+        StmtKind::Expr(e) | StmtKind::Synchronize(e) => each_in(e, visit),
+        StmtKind::Block(body) => each(body, visit),
+        StmtKind::If { condition, then, otherwise } => {
+            each_in(condition, visit);
+            each(then, visit);
+            each(otherwise, visit);
+        }
+        StmtKind::Loop { condition, body, update, .. } => {
+            for e in condition.iter().chain(update) {
+                each_in(e, visit);
+            }
+            each(body, visit);
+        }
+        StmtKind::ForallSet { set, body, .. } => {
+            each_in(set, visit);
+            each(body, visit);
+        }
+        StmtKind::ForallRing { ring, body, .. } => {
+            each_in_ring(ring, visit);
+            each(body, visit);
+        }
+        StmtKind::Break | StmtKind::Continue => {}
+        StmtKind::Return(e) => {
+            if let Some(e) = e {
+                each_in(e, visit);
+            }
+        }
+        StmtKind::Make { items, of } => {
+            for item in items {
+                each_in_item(item, visit);
+            }
+            each_in(of, visit);
+        }
+        StmtKind::Erase { item, from } => {
+            each_in_item(item, visit);
+            each_in(from, visit);
+        }
+        StmtKind::Replace { item, with, ring } => {
+            each_in_item(item, visit);
+            each_in_item(with, visit);
+            each_in(ring, visit);
+        }
+        StmtKind::Splice { item, anchor, ring, .. } => {
+            each_in_item(item, visit);
+            each_in_item(anchor, visit);
+            each_in(ring, visit);
+        }
+        StmtKind::Add { vertex, .. } | StmtKind::Remove { vertex, .. } => each_in(vertex, visit),
+        StmtKind::Merge { other, .. } => each_in(other, visit),
+        StmtKind::Print(items) => {
+            for item in items {
+                if let PrintItem::Value(e) = item {
+                    each_in(e, visit);
+                }
+            }
+        }
+    }
+}
+
+fn each_in_item<'a>(item: &'a Item, visit: &mut dyn FnMut(Node<'a>)) {
+    if let Item::Vertex(e) = item {
+        each_in(e, visit);
+    }
+}
+
+fn each_in_ring<'a>(ring: &'a Ring, visit: &mut dyn FnMut(Node<'a>)) {
+    visit(Node::Ring(ring));
+    each_in(&ring.vertex, visit);
+}
+
+fn each_in_place<'a>(place: &'a Place, visit: &mut dyn FnMut(Node<'a>)) {
+    visit(Node::Place(place));
+    match place {
+        Place::Local(_) | Place::MeshProperty { .. } => {}
+        Place::Position { vertex, .. } | Place::VertexProperty { vertex, .. } => each_in(vertex, visit),
+        Place::EdgeProperty { ends, .. } => {
+            for e in ends {
+                each_in(e, visit);
+            }
+        }
+        Place::Coordinate(base, _) => each_in_place(base, visit),
+    }
+}
+
+/// Visits an expression and all that is in it.
+pub(super) fn each_in<'a>(e: &'a Expr, visit: &mut dyn FnMut(Node<'a>)) {
+    stacker::maybe_grow(super::RED_ZONE, super::STACK_SEGMENT, || each_in_expression(e, visit));
+}
+
+fn each_in_expression<'a>(e: &'a Expr, visit: &mut dyn FnMut(Node<'a>)) {
+    visit(Node::Expr(e));
+    match &e.kind {
+        ExprKind::Constant(_) | ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Create => {}
+        ExprKind::Load(place) | ExprKind::Step(place, ..) => each_in_place(place, visit),
+        ExprKind::Convert(_, a) | ExprKind::Unary(_, a) | ExprKind::Coordinate(a, _) | ExprKind::AssignSet(_, a) => {
+            each_in(a, visit);
+        }
+        ExprKind::Binary(_, a, b) | ExprKind::And(a, b) | ExprKind::Or(a, b) | ExprKind::IsInSet(a, b) => {
+            each_in(a, visit);
+            each_in(b, visit);
+        }
+        ExprKind::Conditional(a, b, c) => {
+            each_in(a, visit);
+            each_in(b, visit);
+            each_in(c, visit);
+        }
+        ExprKind::Call(_, arguments) => {
+            for argument in arguments {
+                if let Argument::Value(e) = argument {
+                    each_in(e, visit);
+                }
+            }
+        }
+        ExprKind::Builtin(_, arguments) => {
+            for e in arguments {
+                each_in(e, visit);
+            }
+        }
+        ExprKind::Assign { place, value, .. } => {
+            each_in_place(place, visit);
+            each_in(value, visit);
+        }
+        ExprKind::Any(ring) | ExprKind::Valence(ring) | ExprKind::Gaps(ring) => each_in_ring(ring, visit),
+        ExprKind::Next(item, ring) | ExprKind::Previous(item, ring) | ExprKind::IsInRing(item, ring) => {
+            each_in_item(item, visit);
+            each_in_ring(ring, visit);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The runtime functions by name, with the types compiled code calls them by.
+
+use cranelift_codegen::ir::{Type, types};
+
+use super::{edges, print, rings, sets};
+
+macro_rules! runtime {
+    ($($name:ident = $function:path, ($($operand:ident),*) $(-> $result:ident)?;)*) => {
+        /// A runtime function; the first operand of most is the context.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub(in super::super) enum Symbol {
+            $($name,)*
+        }
+
+        impl Symbol {
+            /// All of them.
+            pub(in super::super) const ALL: &[Self] = &[$(Self::$name,)*];
+
+            /// What the linker calls it.
+            pub(in super::super) fn name(self) -> &'static str {
+                match self {
+                    $(Self::$name => stringify!($name),)*
+                }
+            }
+
+            /// Types of its operands.
+            pub(in super::super) fn operands(self) -> &'static [Type] {
+                match self {
+                    $(Self::$name => &[$(types::$operand,)*],)*
+                }
+            }
+
+            /// Type of its result.
+            pub(in super::super) fn result(self) -> Option<Type> {
+                match self {
+                    $(Self::$name => [$(types::$result)?].first().copied(),)*
+                }
+            }
+        }
+
+        /// Where each lies.
+        pub(in super::super) fn symbols() -> Vec<(&'static str, *const u8)> {
+            vec![$((stringify!($name), $function as *const u8),)*]
+        }
+    };
+}
+
+runtime! {
+    GrowVertices = super::grow_vertices, (I64) -> I32;
+    GrowSlots = super::grow_slots, (I64, I64) -> I32;
+    Unwind = super::unwind, (I64, I32);
+    CallBuiltin = super::call_builtin, (I64, I32) -> I32;
+    CallD1 = super::call_d1, (I64, F64) -> F64;
+    CallD2 = super::call_d2, (I64, F64, F64) -> F64;
+    Synchronize = rings::synchronize, (I64, I32, I32) -> I32;
+    Holds = rings::holds, (I64, I32) -> I32;
+    Make = rings::make, (I64, I32, I64, I32) -> I32;
+    Erase = rings::erase, (I64, I32, I32) -> I32;
+    Replace = rings::replace, (I64, I32, I32, I32) -> I32;
+    Splice = rings::splice, (I64, I32, I32, I32, I32) -> I32;
+    Find = rings::find, (I64, I32, I32, I32) -> I32;
+    Gaps = rings::gaps, (I64, I32, I32) -> I32;
+    Walk = rings::walk, (I64, I32, I32) -> I64;
+    EdgeLoad = rings::edge_load, (I64, I32, I32, I32, I32) -> I32;
+    EdgeStore = rings::edge_store, (I64, I32, I32, I32) -> I32;
+    MeshLoad = edges::mesh_load, (I64, I32, I32) -> I32;
+    MeshStore = edges::mesh_store, (I64, I32, I32) -> I32;
+    SetNew = sets::set_new, (I64) -> I32;
+    SetCopy = sets::set_copy, (I64, I32) -> I32;
+    SetDrop = sets::set_drop, (I64, I64);
+    SetDeclare = sets::set_declare, (I64, I32, I32) -> I32;
+    SetAssign = sets::set_assign, (I64, I32, I32) -> I32;
+    SetMerge = sets::set_merge, (I64, I32, I32) -> I32;
+    SetAdd = sets::set_add, (I64, I32, I32) -> I32;
+    SetRemove = sets::set_remove, (I64, I32, I32) -> I32;
+    SetContains = sets::set_contains, (I64, I32, I32) -> I32;
+    SetReturn = sets::set_return, (I64, I32) -> I32;
+    SetTake = sets::set_take, (I64) -> I32;
+    SetWalk = sets::set_walk, (I64, I32) -> I64;
+    SetWalkEnd = sets::set_walk_end, (I64, I64);
+    PrintBegin = print::print_begin, (I64);
+    PrintText = print::print_text, (I64, I32);
+    PrintValue = print::print_value, (I64, I32);
+    PrintSet = print::print_set, (I64, I32) -> I32;
+    PrintEnd = print::print_end, (I64) -> I32;
+}

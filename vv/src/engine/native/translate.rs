@@ -1,0 +1,638 @@
+//! From the checked program to Cranelift's representation: one native function per function, typed, in SSA form.
+//!
+//! `int` is i64, `double` f64, `bool` i8 (0 or 1), `vertex` i32 (0 is null), `vec` three f64, a mesh the index of a set
+//! of the run. A function takes the context, then its operands, `&` parameters as addresses; it returns a status and
+//! leaves its result in the context. Whatever is an error in the language jumps to one cold block that returns
+//! [`status::REPEAT`]: the interpreter then says what it was.
+
+mod expression;
+mod known;
+mod place;
+mod ring;
+mod statement;
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{
+    AbiParam, AliasRegionData, Block, BlockArg, FuncRef, InstBuilder, MemFlagsData, Signature, StackSlotData,
+    StackSlotKind, Type as ClifType, Value, types,
+};
+use cranelift_frontend::{FunctionBuilder, Variable};
+use cranelift_jit::JITModule;
+use cranelift_module::{FuncId, Module};
+use rustc_hash::FxHashMap;
+
+use super::Mutation;
+use super::context::{self, Layout, Memo, status};
+use super::effects::{Facts, Keeping};
+use super::run::Symbol;
+use crate::ir::{Function, FunctionId, LocalId, Passing, Program, Type};
+use crate::mesh;
+use crate::source::Span;
+
+use known::Known;
+
+/// Why a program is left to the interpreter.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub(crate) struct Refused(pub(crate) String);
+
+pub(super) type Translated<T> = Result<T, Refused>;
+
+/// A place where compiled code may be stopped.
+#[derive(Debug, Clone)]
+pub(super) struct Site {
+    pub(super) span: Span,
+    /// The function that was compiled.
+    pub(super) function: String,
+    /// Calls within it that its code stands in for, innermost first.
+    pub(super) calls: Vec<(String, Span)>,
+}
+
+/// What is gathered while a program is compiled.
+pub(super) struct Unit<'p> {
+    pub(super) program: &'p Program,
+    pub(super) facts: Facts,
+    pub(super) layout: Layout,
+    pub(super) sites: Vec<Site>,
+    pub(super) texts: Vec<String>,
+    pub(super) memos: Vec<Memo>,
+    pub(super) functions: FxHashMap<FunctionId, FuncId>,
+    pub(super) symbols: FxHashMap<Symbol, FuncId>,
+    /// An instruction that is translated wrongly, for the test of the tests.
+    pub(super) mutation: Mutation,
+}
+
+/// The signature of a function of the program.
+pub(super) fn signature(function: &Function, mut signature: Signature) -> Translated<Signature> {
+    signature.params.push(AbiParam::new(types::I64));
+    for (local, passing) in function.locals.iter().zip(&function.parameters) {
+        match (local.ty, passing) {
+            (Type::Mesh, _) => signature.params.push(AbiParam::new(types::I32)),
+            (Type::Value(_), Passing::Reference) => signature.params.push(AbiParam::new(types::I64)),
+            (Type::Value(ty), Passing::Value) => {
+                for &t in clif_types(ty) {
+                    signature.params.push(AbiParam::new(t));
+                }
+            }
+            (Type::Void, _) => return Err(Refused("a parameter has no type".to_owned())),
+        }
+    }
+    signature.returns.push(AbiParam::new(types::I32));
+    Ok(signature)
+}
+
+fn clif_types(ty: mesh::Type) -> &'static [ClifType] {
+    match ty {
+        mesh::Type::Bool => &[types::I8],
+        mesh::Type::Int => &[types::I64],
+        mesh::Type::Double => &[types::F64],
+        mesh::Type::Vec => &[types::F64, types::F64, types::F64],
+        mesh::Type::Vertex => &[types::I32],
+    }
+}
+
+/// A value of the language.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Val {
+    Void,
+    One(Value),
+    Vec([Value; 3]),
+}
+
+impl Val {
+    fn one(self) -> Translated<Value> {
+        match self {
+            Self::One(v) => Ok(v),
+            _ => Err(wrong_type()),
+        }
+    }
+
+    fn vec(self) -> Translated<[Value; 3]> {
+        match self {
+            Self::Vec(v) => Ok(v),
+            _ => Err(wrong_type()),
+        }
+    }
+
+    fn parts(&self) -> &[Value] {
+        match self {
+            Self::Void => &[],
+            Self::One(v) => std::slice::from_ref(v),
+            Self::Vec(v) => v,
+        }
+    }
+
+    fn from_parts(parts: &[Value]) -> Self {
+        match *parts {
+            [x] => Self::One(x),
+            [x, y, z] => Self::Vec([x, y, z]),
+            _ => Self::Void,
+        }
+    }
+}
+
+fn wrong_type() -> Refused {
+    Refused("the program is not well-typed".to_owned())
+}
+
+/// Where a variable lives.
+#[derive(Debug, Clone, Copy)]
+enum Storage {
+    /// Not declared yet.
+    None,
+    Fixed(Val),
+    Variables([Variable; 3], usize),
+    /// An address.
+    Memory(Value),
+    /// Index of a set.
+    Set(Value),
+}
+
+/// A function whose statements are being translated: the compiled one, or one that stands in for its call.
+struct Frame<'p> {
+    function: &'p Function,
+
+    storage: Vec<Storage>,
+    /// Where it was called, for one that stands in.
+    call: Option<Span>,
+    /// Where `return` goes in one that stands in and returns in several places.
+    exit: Option<Block>,
+    result: Vec<Variable>,
+    loops: Vec<Loop>,
+}
+
+/// An open loop.
+#[derive(Debug, Clone, Copy)]
+struct Loop {
+    next: Block,
+    exit: Block,
+    walk: Walk,
+}
+
+/// What a loop has to give back when it is left.
+#[derive(Debug, Clone, Copy)]
+enum Walk {
+    Nothing,
+    /// How many sets were walked before.
+    Set(Value),
+    /// How long the buffer of rings was before.
+    Ring(Value),
+}
+
+/// Kinds of memory that do not overlap.
+struct Regions {
+    context: MemFlagsData,
+    heads: MemFlagsData,
+    slots: MemFlagsData,
+    positions: MemFlagsData,
+    /// What compiled code never stores to while it reads it.
+    old: MemFlagsData,
+    locals: MemFlagsData,
+    sets: MemFlagsData,
+    members: MemFlagsData,
+    columns: Vec<MemFlagsData>,
+}
+
+/// Translates one function.
+pub(super) struct Translator<'t, 'p> {
+    b: FunctionBuilder<'t>,
+    module: &'t mut JITModule,
+    unit: &'t mut Unit<'p>,
+    program: &'p Program,
+    context: Value,
+    frames: Vec<Frame<'p>>,
+    known: Known,
+    fail: Block,
+    regions: Regions,
+    symbol_refs: FxHashMap<Symbol, FuncRef>,
+    function_refs: FxHashMap<FunctionId, FuncRef>,
+    /// How many sets there were before the function's own.
+    set_mark: Option<Value>,
+    name: String,
+    /// Nothing has been written to the mesh: the first statement of a rule is being translated.
+    pristine: bool,
+}
+
+impl<'t, 'p> Translator<'t, 'p> {
+    pub(super) fn new(
+        mut b: FunctionBuilder<'t>,
+        module: &'t mut JITModule,
+        unit: &'t mut Unit<'p>,
+        name: &str,
+    ) -> Self {
+        let entry = b.create_block();
+        b.append_block_params_for_function_params(entry);
+        b.switch_to_block(entry);
+        b.seal_block(entry);
+        let context = b.block_params(entry)[0];
+        let fail = b.create_block();
+        b.set_cold_block(fail);
+        let mut next_region = 0;
+        let mut region = |description: &'static str| {
+            let data = AliasRegionData { user_id: next_region, description: description.into() };
+            next_region += 1;
+            MemFlagsData::trusted().with_alias_region(Some(b.func.dfg.alias_regions.insert(data)))
+        };
+        let regions = Regions {
+            context: region("context"),
+            heads: region("heads"),
+            slots: region("slots"),
+            positions: region("positions"),
+            old: region("old"),
+            locals: region("locals"),
+            sets: region("sets"),
+            members: region("members"),
+            columns: unit.program.vertex_properties.iter().map(|_| region("column")).collect(),
+        };
+        Self {
+            b,
+            module,
+            program: unit.program,
+            unit,
+            context,
+            frames: Vec::new(),
+            known: Known::default(),
+            fail,
+            regions,
+            symbol_refs: FxHashMap::default(),
+            function_refs: FxHashMap::default(),
+            set_mark: None,
+            name: name.to_owned(),
+            pristine: false,
+        }
+    }
+
+    /// Translates a function of the program.
+    pub(super) fn function(mut self, id: FunctionId) -> Translated<()> {
+        let function = self.program.function(id).ok_or_else(wrong_type)?;
+        let facts = self.unit.facts.function(id).ok_or_else(wrong_type)?;
+        let (inline_depth, keeping) = (facts.inline_depth, facts.keeping.clone());
+        self.prologue(inline_depth);
+        let own_sets =
+            function.locals.iter().enumerate().any(|(i, l)| l.ty == Type::Mesh && i >= function.parameters.len());
+        if own_sets {
+            self.set_mark = Some(self.load_context(types::I64, context::SET_COUNT));
+        }
+        let mut operands = 1;
+        let entry = self.b.current_block().ok_or_else(wrong_type)?;
+        let mut storage = Vec::with_capacity(function.locals.len());
+        // The prologue has split the entry block; its parameters are the operands all the same.
+        let parameters: Vec<Value> = {
+            let first = self.b.func.layout.entry_block().unwrap_or(entry);
+            self.b.block_params(first).to_vec()
+        };
+        for (i, local) in function.locals.iter().enumerate() {
+            let passing = function.parameters.get(i);
+            let place = match (local.ty, passing) {
+                (Type::Mesh, Some(_)) => {
+                    operands += 1;
+                    Storage::Set(*parameters.get(operands - 1).ok_or_else(wrong_type)?)
+                }
+                (Type::Value(_), Some(Passing::Reference)) => {
+                    operands += 1;
+                    Storage::Memory(*parameters.get(operands - 1).ok_or_else(wrong_type)?)
+                }
+                (Type::Value(ty), Some(Passing::Value)) => {
+                    let n = clif_types(ty).len();
+                    let value = Val::from_parts(parameters.get(operands..operands + n).ok_or_else(wrong_type)?);
+                    operands += n;
+                    let place = self.allocate(ty, keeping[i]);
+                    self.define(place, ty, value)
+                }
+                (Type::Mesh, None) => Storage::Set(self.new_set()),
+                (Type::Value(ty), None) => self.allocate(ty, keeping[i]),
+                (Type::Void, _) => Storage::None,
+            };
+            storage.push(place);
+        }
+        self.pristine = self.program.rules.contains(&id) || self.program.start == Some(id);
+        self.frames.push(Frame { function, storage, call: None, exit: None, result: Vec::new(), loops: Vec::new() });
+        if self.block(&function.body)? {
+            self.leave_function();
+        }
+        self.finish();
+        Ok(())
+    }
+
+    /// Translates the function that computes the globals.
+    pub(super) fn globals(mut self) -> Translated<()> {
+        let depth = self.unit.facts.functions.iter().map(|f| f.inline_depth + 1).max().unwrap_or(0);
+        self.prologue(depth);
+        for (i, global) in self.program.globals.iter().enumerate() {
+            let word = self.unit.layout.global(i);
+            let given = self.load_context(types::I64, context::byte_offset(self.unit.layout.given(i)));
+            let compute = self.b.create_block();
+            let done = self.b.create_block();
+            self.b.ins().brif(given, done, &[], compute, &[]);
+            self.b.switch_to_block(compute);
+            self.b.seal_block(compute);
+            self.known.enter();
+            let value = self.expression(&global.init)?;
+            self.known.leave();
+            let context = self.context;
+            for (k, &part) in value.parts().iter().enumerate() {
+                let part = self.widen(part);
+                let flags = self.regions.context;
+                self.b.ins().store(flags, part, context, context::byte_offset(word + k));
+            }
+            self.b.ins().jump(done, &[]);
+            self.b.switch_to_block(done);
+            self.b.seal_block(done);
+        }
+        self.leave_function();
+        self.finish();
+        Ok(())
+    }
+
+    /// Asks for room on the native stack and among the open calls.
+    fn prologue(&mut self, inline_depth: u32) {
+        let pointer = self.b.ins().get_stack_pointer(types::I64);
+        let limit = self.load_context(types::I64, context::STACK_LIMIT);
+        let low = self.b.ins().icmp(IntCC::UnsignedLessThan, pointer, limit);
+        let depth = self.load_context(types::I64, context::DEPTH);
+        let depth = self.b.ins().iadd_imm_s(depth, 1);
+        let deepest = self.b.ins().iadd_imm_s(depth, i64::from(inline_depth));
+        let max = self.load_context(types::I64, context::MAX_DEPTH);
+        let deep = self.b.ins().icmp(IntCC::UnsignedGreaterThan, deepest, max);
+        let bad = self.b.ins().bor(low, deep);
+        self.fail_if(bad);
+        self.store_context(depth, context::DEPTH);
+    }
+
+    /// Ends the function well.
+    fn leave_function(&mut self) {
+        if let Some(mark) = self.set_mark {
+            self.call(Symbol::SetDrop, &[mark]);
+        }
+        let depth = self.load_context(types::I64, context::DEPTH);
+        let depth = self.b.ins().iadd_imm_s(depth, -1);
+        self.store_context(depth, context::DEPTH);
+        let done = self.b.ins().iconst(types::I32, i64::from(status::DONE));
+        self.b.ins().return_(&[done]);
+    }
+
+    fn finish(mut self) {
+        self.b.switch_to_block(self.fail);
+        let repeat = self.b.ins().iconst(types::I32, i64::from(status::REPEAT));
+        self.b.ins().return_(&[repeat]);
+        self.b.seal_all_blocks();
+        let config = self.module.target_config();
+        self.b.finalize(config);
+    }
+
+    /// Whether this is to be translated wrongly.
+    fn mutated(&self, mutation: Mutation) -> bool {
+        self.unit.mutation == mutation
+    }
+
+    fn frame(&self) -> Translated<&Frame<'p>> {
+        self.frames.last().ok_or_else(wrong_type)
+    }
+
+    fn frame_mut(&mut self) -> Translated<&mut Frame<'p>> {
+        self.frames.last_mut().ok_or_else(wrong_type)
+    }
+
+    fn storage(&self, local: LocalId) -> Translated<Storage> {
+        self.frame()?.storage.get(local.0 as usize).copied().ok_or_else(wrong_type)
+    }
+
+    fn type_of(&self, local: LocalId) -> Translated<mesh::Type> {
+        match self.frame()?.function.locals.get(local.0 as usize).map(|l| l.ty) {
+            Some(Type::Value(ty)) => Ok(ty),
+            _ => Err(wrong_type()),
+        }
+    }
+
+    /// Index of the set behind a variable of type mesh.
+    fn set_of(&self, local: LocalId) -> Translated<Value> {
+        match self.storage(local)? {
+            Storage::Set(index) => Ok(index),
+            _ => Err(wrong_type()),
+        }
+    }
+
+    fn allocate(&mut self, ty: mesh::Type, keeping: Keeping) -> Storage {
+        match keeping {
+            Keeping::Fixed => Storage::None,
+            Keeping::Variable => {
+                let types = clif_types(ty);
+                let mut variables = [Variable::from_u32(0); 3];
+                for (variable, &t) in variables.iter_mut().zip(types) {
+                    *variable = self.b.declare_var(t);
+                }
+                Storage::Variables(variables, types.len())
+            }
+            Keeping::Memory => {
+                let data = StackSlotData::new(StackSlotKind::ExplicitSlot, context::value_size(ty) as u32, 3);
+                let slot = self.b.create_sized_stack_slot(data);
+                Storage::Memory(self.b.ins().stack_addr(types::I64, slot, 0))
+            }
+        }
+    }
+
+    /// Stores a value, and says where it lives from now on.
+    fn define(&mut self, storage: Storage, ty: mesh::Type, value: Val) -> Storage {
+        match storage {
+            Storage::None | Storage::Fixed(_) => Storage::Fixed(value),
+            Storage::Variables(variables, n) => {
+                for (&variable, &part) in variables.iter().take(n).zip(value.parts()) {
+                    self.b.def_var(variable, part);
+                }
+                storage
+            }
+            Storage::Memory(address) => {
+                let flags = self.regions.locals;
+                for (k, &part) in value.parts().iter().enumerate() {
+                    self.b.ins().store(flags, part, address, 8 * k as i32);
+                }
+                let _ = ty;
+                storage
+            }
+            Storage::Set(_) => storage,
+        }
+    }
+
+    fn define_local(&mut self, local: LocalId, value: Val) -> Translated<()> {
+        let ty = self.type_of(local)?;
+        let storage = self.storage(local)?;
+        let storage = self.define(storage, ty, value);
+        if let Some(place) = self.frame_mut()?.storage.get_mut(local.0 as usize) {
+            *place = storage;
+        }
+        Ok(())
+    }
+
+    fn read_local(&mut self, local: LocalId) -> Translated<Val> {
+        let ty = self.type_of(local)?;
+        Ok(match self.storage(local)? {
+            Storage::Fixed(value) => value,
+            Storage::Variables(variables, n) => {
+                let mut parts = [self.context; 3];
+                for (part, &variable) in parts.iter_mut().zip(variables.iter().take(n)) {
+                    *part = self.b.use_var(variable);
+                }
+                Val::from_parts(&parts[..n])
+            }
+            Storage::Memory(address) => {
+                let flags = self.regions.locals;
+                self.load_value(ty, flags, address, 0)
+            }
+            Storage::None | Storage::Set(_) => return Err(Refused("a variable is used before it is declared".into())),
+        })
+    }
+
+    /// Loads a value of a type; its parts lie one after the other.
+    fn load_value(&mut self, ty: mesh::Type, flags: MemFlagsData, address: Value, offset: i32) -> Val {
+        let mut parts = [address; 3];
+        let types = clif_types(ty);
+        for (k, (part, &t)) in parts.iter_mut().zip(types).enumerate() {
+            *part = self.b.ins().load(t, flags, address, offset + 8 * k as i32);
+        }
+        Val::from_parts(&parts[..types.len()])
+    }
+
+    fn load_context(&mut self, ty: ClifType, offset: i32) -> Value {
+        let (flags, context) = (self.regions.context, self.context);
+        self.b.ins().load(ty, flags, context, offset)
+    }
+
+    fn store_context(&mut self, value: Value, offset: i32) {
+        let (flags, context) = (self.regions.context, self.context);
+        self.b.ins().store(flags, value, context, offset);
+    }
+
+    /// The value in the words through which runtime functions answer.
+    fn load_words(&mut self, ty: mesh::Type) -> Val {
+        let (flags, context) = (self.regions.context, self.context);
+        self.load_value(ty, flags, context, context::VALUE)
+    }
+
+    fn store_words(&mut self, value: Val) {
+        self.store_words_at(value, 0);
+    }
+
+    fn store_words_at(&mut self, value: Val, first: usize) {
+        for (k, &part) in value.parts().iter().enumerate() {
+            let part = self.widen(part);
+            self.store_context(part, context::VALUE + 8 * (first + k) as i32);
+        }
+    }
+
+    /// A part of a value as eight bytes.
+    fn widen(&mut self, part: Value) -> Value {
+        match self.b.func.dfg.value_type(part) {
+            types::I8 | types::I32 => self.b.ins().uextend(types::I64, part),
+            _ => part,
+        }
+    }
+
+    fn int32(&mut self, n: u32) -> Value {
+        self.b.ins().iconst(types::I32, i64::from(n))
+    }
+
+    /// Goes on in a new block unless `bad` holds, which fails.
+    fn fail_if(&mut self, bad: Value) {
+        let fail = self.fail;
+        self.leave_if(bad, fail);
+    }
+
+    fn leave_if(&mut self, bad: Value, to: Block) {
+        let next = self.b.create_block();
+        self.b.ins().brif(bad, to, &[], next, &[]);
+        self.b.switch_to_block(next);
+        self.b.seal_block(next);
+    }
+
+    /// Calls a runtime function, whose first operand is the context.
+    fn call(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
+        let mut all = vec![self.context];
+        all.extend_from_slice(operands);
+        self.call_with(symbol, &all)
+    }
+
+    fn call_with(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
+        let function = match self.symbol_refs.get(&symbol) {
+            Some(&f) => f,
+            None => {
+                let id = self.unit.symbols.get(&symbol).copied()?;
+                let f = self.module.declare_func_in_func(id, self.b.func);
+                self.symbol_refs.insert(symbol, f);
+                f
+            }
+        };
+        let call = self.b.ins().call(function, operands);
+        self.b.inst_results(call).first().copied()
+    }
+
+    /// Calls a runtime function that returns a status, and fails where that is not zero.
+    fn call_or_fail(&mut self, symbol: Symbol, operands: &[Value]) {
+        if let Some(status) = self.call(symbol, operands) {
+            self.fail_if(status);
+        }
+    }
+
+    fn new_set(&mut self) -> Value {
+        match self.call(Symbol::SetNew, &[]) {
+            Some(index) => {
+                self.fail_if_no_set(index);
+                index
+            }
+            None => self.int32(0),
+        }
+    }
+
+    fn fail_if_no_set(&mut self, index: Value) {
+        let none = self.b.ins().icmp_imm_s(IntCC::Equal, index, -1);
+        self.fail_if(none);
+    }
+
+    /// A place where the code may be stopped.
+    fn site(&mut self, span: Span) -> u32 {
+        let calls = self.frames.iter().rev().filter_map(|f| Some((f.function.name.clone(), f.call?))).collect();
+        self.unit.sites.push(Site { span, function: self.name.clone(), calls });
+        self.unit.sites.len() as u32 - 1
+    }
+
+    /// Asks whether the run shall stop.
+    fn poll(&mut self, span: Span) {
+        let flag = self.load_context(types::I64, context::STOP);
+        // No alias region: another thread writes it.
+        let stop = self.b.ins().load(types::I8, MemFlagsData::trusted(), flag, 0);
+        let stopped = self.b.create_block();
+        self.b.set_cold_block(stopped);
+        let next = self.b.create_block();
+        self.b.ins().brif(stop, stopped, &[], next, &[]);
+        self.b.switch_to_block(stopped);
+        self.b.seal_block(stopped);
+        self.leave_with(status::STOPPED, span);
+        self.b.switch_to_block(next);
+        self.b.seal_block(next);
+    }
+
+    /// Leaves the function with a status that has a place.
+    fn leave_with(&mut self, status: u32, span: Span) {
+        let site = self.site(span);
+        let site = self.b.ins().iconst(types::I64, i64::from(site));
+        self.store_context(site, context::SITE);
+        let status = self.int32(status);
+        self.b.ins().return_(&[status]);
+    }
+
+    /// A block that takes values of these types.
+    fn block_with(&mut self, types: &[ClifType]) -> (Block, Vec<Value>) {
+        let block = self.b.create_block();
+        let values = types.iter().map(|&t| self.b.append_block_param(block, t)).collect();
+        (block, values)
+    }
+
+    fn jump_with(&mut self, block: Block, values: &[Value]) {
+        let values: Vec<BlockArg> = values.iter().map(|&v| BlockArg::Value(v)).collect();
+        self.b.ins().jump(block, &values);
+    }
+
+    fn continue_in(&mut self, block: Block) {
+        self.b.switch_to_block(block);
+        self.b.seal_block(block);
+    }
+}

@@ -1,0 +1,252 @@
+//! Places: what can be read and stored to.
+
+use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Value, types};
+
+use super::{Storage, Symbol, Translated, Translator, Val, wrong_type};
+use crate::engine::native::Mutation;
+use crate::engine::native::context;
+use crate::ir::{Compound, Expr, LocalId, Place, Step, StepPosition};
+use crate::mesh::Type;
+
+/// A place whose operands are computed.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Target {
+    Local(LocalId),
+    Position { v: Value, old: bool },
+    Vertex { property: u32, v: Value, old: bool },
+    Edge { property: u32, ends: [Value; 2], old: bool },
+    Mesh { property: u32, set: Value },
+}
+
+/// A place, and the coordinate of it that is meant.
+pub(super) type Spot = (Target, Option<u8>);
+
+impl<'p> Translator<'_, 'p> {
+    pub(super) fn load(&mut self, place: &'p Place) -> Translated<Val> {
+        let spot = self.target(place)?;
+        self.read(spot)
+    }
+
+    /// Computes the operands of a place.
+    pub(super) fn target(&mut self, place: &'p Place) -> Translated<Spot> {
+        Ok(match place {
+            Place::Local(local) => (Target::Local(*local), None),
+            Place::Position { vertex, old } => (Target::Position { v: self.owner(vertex, *old)?, old: *old }, None),
+            Place::VertexProperty { property, vertex, old } => {
+                let v = self.owner(vertex, *old)?;
+                (Target::Vertex { property: *property, v, old: *old }, None)
+            }
+            Place::EdgeProperty { property, ends: [p, q], old } => {
+                let ends = [self.owner(p, *old)?, self.owner(q, *old)?];
+                (Target::Edge { property: *property, ends, old: *old }, None)
+            }
+            Place::MeshProperty { property, set } => {
+                (Target::Mesh { property: *property, set: self.set_of(*set)? }, None)
+            }
+            Place::Coordinate(base, axis) => (self.target(base)?.0, Some(*axis)),
+        })
+    }
+
+    /// The vertex whose value is meant: not null, and with an old value if that is meant.
+    fn owner(&mut self, e: &'p Expr, old: bool) -> Translated<Value> {
+        let v = self.vertex_not_null(e)?;
+        if old {
+            self.held(v);
+        }
+        Ok(v)
+    }
+
+    pub(super) fn read(&mut self, (target, axis): Spot) -> Translated<Val> {
+        let whole = match target {
+            Target::Local(local) => match (self.storage(local)?, axis) {
+                (Storage::Variables(variables, 3), Some(axis)) => {
+                    return Ok(Val::One(self.b.use_var(variables[usize::from(axis.min(2))])));
+                }
+                _ => self.read_local(local)?,
+            },
+            Target::Position { .. } | Target::Vertex { .. } => {
+                let (ty, flags, address) = self.address(target)?;
+                if let (Type::Vec, Some(axis)) = (ty, axis) {
+                    let x = self.b.ins().load(types::F64, flags, address, 8 * i32::from(axis.min(2)));
+                    return Ok(Val::One(x));
+                }
+                self.load_value(ty, flags, address, 0)
+            }
+            Target::Edge { property, ends: [p, q], old } => {
+                let ty = self.program.edge_properties.get(property as usize).ok_or_else(wrong_type)?.default.ty();
+                let (number, of_old) = (self.int32(property), self.int32(u32::from(old)));
+                self.call_or_fail(Symbol::EdgeLoad, &[number, p, q, of_old]);
+                self.load_words(ty)
+            }
+            Target::Mesh { property, set } => {
+                let ty = self.program.mesh_properties.get(property as usize).ok_or_else(wrong_type)?.default.ty();
+                let number = self.int32(property);
+                self.call_or_fail(Symbol::MeshLoad, &[set, number]);
+                self.load_words(ty)
+            }
+        };
+        Ok(match (whole, axis) {
+            (Val::Vec(parts), Some(axis)) => Val::One(parts[usize::from(axis.min(2))]),
+            (whole, _) => whole,
+        })
+    }
+
+    pub(super) fn store(&mut self, (target, axis): Spot, value: Val) -> Translated<()> {
+        match target {
+            Target::Local(local) => match (self.storage(local)?, axis) {
+                (Storage::Variables(variables, 3), Some(axis)) => {
+                    self.b.def_var(variables[usize::from(axis.min(2))], value.one()?);
+                }
+                (Storage::Memory(address), Some(axis)) => {
+                    let flags = self.regions.locals;
+                    self.b.ins().store(flags, value.one()?, address, 8 * i32::from(axis.min(2)));
+                }
+                _ => self.define_local(local, value)?,
+            },
+            Target::Position { .. } | Target::Vertex { .. } => {
+                let (_, flags, address) = self.address(target)?;
+                let first = axis.map_or(0, |axis| 8 * i32::from(axis.min(2)));
+                for (k, &part) in value.parts().iter().enumerate() {
+                    if k == 1 && self.mutated(Mutation::StoresNoY) {
+                        continue;
+                    }
+                    self.b.ins().store(flags, part, address, first + 8 * k as i32);
+                }
+            }
+            Target::Edge { property, ends: [p, q], .. } => {
+                let value = self.with_coordinate(target, axis, value)?;
+                self.store_words(value);
+                let number = self.int32(property);
+                if !self.mutated(Mutation::StoresNoEdgeValue) {
+                    self.call_or_fail(Symbol::EdgeStore, &[number, p, q]);
+                }
+            }
+            Target::Mesh { property, set } => {
+                let value = self.with_coordinate(target, axis, value)?;
+                self.store_words(value);
+                let number = self.int32(property);
+                if !self.mutated(Mutation::StoresNoMeshValue) {
+                    self.call_or_fail(Symbol::MeshStore, &[set, number]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The whole value of a place where one coordinate is to be stored.
+    fn with_coordinate(&mut self, target: Target, axis: Option<u8>, value: Val) -> Translated<Val> {
+        let Some(axis) = axis else { return Ok(value) };
+        let mut whole = self.read((target, None))?.vec()?;
+        whole[usize::from(axis.min(2))] = value.one()?;
+        Ok(Val::Vec(whole))
+    }
+
+    /// Type, kind of memory and address of a position or vertex property.
+    fn address(&mut self, target: Target) -> Translated<(Type, MemFlagsData, Value)> {
+        Ok(match target {
+            Target::Position { v, old } => {
+                let old = old && !self.mutated(Mutation::OldPositionIsNew);
+                let flags = if old { self.regions.old } else { self.regions.positions };
+                let base = if old { context::OLD_POSITIONS } else { context::POSITIONS };
+                let base = self.load_context(types::I64, base);
+                (Type::Vec, flags, self.element(base, v, context::value_size(Type::Vec)))
+            }
+            Target::Vertex { property, v, old } => {
+                let index = property as usize;
+                let ty = self.program.vertex_properties.get(index).ok_or_else(wrong_type)?.default.ty();
+                let flags =
+                    if old { self.regions.old } else { *self.regions.columns.get(index).ok_or_else(wrong_type)? };
+                let base = context::byte_offset(self.unit.layout.vertex_column(index, old));
+                let base = self.load_context(types::I64, base);
+                (ty, flags, self.element(base, v, context::value_size(ty)))
+            }
+            _ => return Err(wrong_type()),
+        })
+    }
+
+    pub(super) fn assign(&mut self, place: &'p Place, op: Option<&'p Compound>, value: &'p Expr) -> Translated<Val> {
+        let spot = self.target(place)?;
+        let mut value = self.expression(value)?;
+        if let Some(compound) = op {
+            let mut was = self.read(spot)?;
+            if let Some(widen) = compound.widen {
+                was = self.convert(widen, was)?;
+            }
+            value = self.binary(compound.op, was, value)?;
+            if let Some(narrow) = compound.narrow {
+                value = self.convert(narrow, value)?;
+            }
+        }
+        self.store(spot, value)?;
+        Ok(value)
+    }
+
+    pub(super) fn step(&mut self, place: &'p Place, step: Step, position: StepPosition) -> Translated<Val> {
+        let spot = self.target(place)?;
+        let before = self.read(spot)?;
+        let x = before.one()?;
+        let after = match (self.b.func.dfg.value_type(x), step) {
+            (types::I64, _) => {
+                let stride = if self.mutated(Mutation::AddStepByTwo) { 2 } else { 1 };
+                let one = self.b.ins().iconst(types::I64, stride);
+                let (sum, overflow) = match step {
+                    Step::Up => self.b.ins().sadd_overflow(x, one),
+                    Step::Down => self.b.ins().ssub_overflow(x, one),
+                };
+                self.fail_if(overflow);
+                sum
+            }
+            (types::F64, step) => {
+                let one = self.b.ins().f64const(1.0);
+                match step {
+                    Step::Up => self.b.ins().fadd(x, one),
+                    Step::Down => self.b.ins().fsub(x, one),
+                }
+            }
+            _ => x,
+        };
+        self.store(spot, Val::One(after))?;
+        Ok(if position == StepPosition::Before { Val::One(after) } else { before })
+    }
+
+    /// A new vertex.
+    pub(super) fn create(&mut self) -> Translated<Value> {
+        let count = self.load_context(types::I64, context::VERTEX_COUNT);
+        let capacity = self.load_context(types::I64, context::VERTEX_CAPACITY);
+        let room = self.b.ins().icmp(cranelift_codegen::ir::condcodes::IntCC::UnsignedLessThan, count, capacity);
+        let grow = self.b.create_block();
+        self.b.set_cold_block(grow);
+        let write = self.b.create_block();
+        self.b.ins().brif(room, write, &[], grow, &[]);
+        self.continue_in(grow);
+        self.call_or_fail(Symbol::GrowVertices, &[]);
+        self.b.ins().jump(write, &[]);
+        self.continue_in(write);
+        let next = self.b.ins().iadd_imm_s(count, 1);
+        let v = self.b.ins().ireduce(types::I32, next);
+        self.known.learn(super::known::Key::NotNull(v), super::known::Fact::Holds);
+        let base = self.load_context(types::I64, context::HEADS);
+        let head = self.element(base, v, context::HEAD_SIZE);
+        let (zero, zero32) = (self.b.ins().iconst(types::I64, 0), self.int32(0));
+        let heads = self.regions.heads;
+        self.b.ins().store(heads, zero32, head, context::HEAD_OFFSET);
+        self.b.ins().store(heads, zero32, head, context::HEAD_LEN);
+        self.b.ins().store(heads, zero32, head, context::HEAD_CAPACITY);
+        let (_, flags, position) = self.address(Target::Position { v, old: false })?;
+        for k in 0..3 {
+            self.b.ins().store(flags, zero, position, 8 * k);
+        }
+        for (property, declaration) in self.program.vertex_properties.iter().enumerate() {
+            let mut default = self.constant(declaration.default)?;
+            if self.mutated(Mutation::CreatesWithoutDefaults) {
+                default = self.constant(crate::mesh::Value::zero(declaration.default.ty()))?;
+            }
+            let (_, flags, address) = self.address(Target::Vertex { property: property as u32, v, old: false })?;
+            for (k, &part) in default.parts().iter().enumerate() {
+                self.b.ins().store(flags, part, address, 8 * k as i32);
+            }
+        }
+        self.store_context(next, context::VERTEX_COUNT);
+        Ok(v)
+    }
+}
