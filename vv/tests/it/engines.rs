@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
 
 use vv::builtins::Random;
 use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Mutation, Output, OutputClosed, Settings};
@@ -10,7 +12,7 @@ use vv::io::{Format, ReadOptions, read};
 use vv::ir::{FunctionId, Program};
 use vv::mesh::close::close;
 use vv::mesh::{Mesh, Value};
-use vv::stop::Stop;
+use vv::stop::{Stop, Stopped};
 
 use crate::run::generated::Writer;
 use crate::run::{OCTAHEDRON, SQUARE};
@@ -209,10 +211,16 @@ fn compare_generated(text: &str, mutation: Mutation) -> Result<(), String> {
     let program = compilation.program.ok_or("does not compile")?;
     let native = Machine::with_mutation(Arc::clone(&program), Engine::Native, mutation);
     let limits = Limits { max_vertices: 500, max_bytes: 1 << 20, max_call_depth: 30 };
-    let settings = Settings { limits, ..Settings::default() };
     let mut mesh = Mesh::new();
     for (function, generation) in [(program.start, 0), (program.default_rule(), 1)] {
         let Some(function) = function else { continue };
+        // Some never end, under either engine.
+        let stop = Stop::new();
+        let settings = Settings { limits, stop: stop.clone(), ..Settings::default() };
+        thread::spawn(move || {
+            thread::sleep(Duration::from_millis(500));
+            stop.request(Stopped::ByTime);
+        });
         match compare(&program, &native, function, &mesh, generation, &settings)?.0 {
             Ok(new) => mesh = new,
             // Where memory ends is the one thing engines may see differently.
