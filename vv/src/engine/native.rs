@@ -186,14 +186,7 @@ fn new_module() -> Result<JITModule, Refused> {
 }
 
 fn define(module: &mut JITModule, id: FuncId, compiler: &mut Compiler) -> Result<(), Refused> {
-    if std::env::var_os("VV_DUMP").is_some() {
-        compiler.set_disasm(true);
-    }
     module.define_function(id, compiler).map_err(|e| refused(format!("{e:?}")))?;
-    if std::env::var_os("VV_DUMP").is_some() {
-        eprintln!("{}", compiler.func.display());
-        eprintln!("{}", compiler.compiled_code().and_then(|c| c.vcode.clone()).unwrap_or_default());
-    }
     let frame = compiler.compiled_code().and_then(|c| c.buffer.frame_layout()).map_or(0, |f| f.frame_to_fp_offset);
     module.clear_context(compiler);
     if frame > MAX_FRAME { Err(refused("a function needs too much of the native stack")) } else { Ok(()) }
