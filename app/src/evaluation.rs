@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use vv::diagnostic::Diagnostic;
-use vv::engine::{self, Failure, FailureKind, Limits, Output, Settings};
-use vv::ir::{FunctionId, Program};
+use vv::engine::{Failure, FailureKind, Limits, Machine, Output, Settings};
+use vv::ir::FunctionId;
 use vv::mesh::{Mesh, close};
 use vv::stop::{Stop, Stopped};
 
@@ -28,15 +28,15 @@ pub struct Generation {
 /// Generation 0: the input as `start` leaves it; the input itself for a program without `start`.
 ///
 /// # Errors
-/// As [`engine::run`].
+/// As [`Machine::run`].
 pub fn first(
-    program: &Program,
+    machine: &Machine,
     input: &Mesh,
     settings: &Settings,
     output: &mut dyn Output,
 ) -> Result<Generation, Failure> {
-    match program.start {
-        Some(start) => advance(program, start, input, 0, settings, output),
+    match machine.program().start {
+        Some(start) => advance(machine, start, input, 0, settings, output),
         None => Ok(Generation { mesh: input.clone(), ..Generation::default() }),
     }
 }
@@ -44,9 +44,9 @@ pub fn first(
 /// Generation `generation`, made of the one before by `rule`.
 ///
 /// # Errors
-/// As [`engine::run`]; `mesh` is as it was.
+/// As [`Machine::run`]; `mesh` is as it was.
 pub fn advance(
-    program: &Program,
+    machine: &Machine,
     rule: FunctionId,
     mesh: &Mesh,
     generation: u64,
@@ -54,7 +54,7 @@ pub fn advance(
     output: &mut dyn Output,
 ) -> Result<Generation, Failure> {
     let began = Instant::now();
-    let mut mesh = engine::run(program, rule, mesh, generation, settings, output)?;
+    let mut mesh = machine.run(rule, mesh, generation, settings, output)?;
     let step_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
     let warnings = close::close(&mut mesh, &settings.stop).map_err(|stopped| Failure {

@@ -22,7 +22,7 @@ pub use native::Mutation;
 pub enum Engine {
     /// The interpreter, which defines what programs mean.
     Interpret,
-    /// Machine code: slower to begin, some forty times as fast.
+    /// Machine code: some milliseconds to begin, then ten to twenty times as fast.
     #[default]
     Native,
 }

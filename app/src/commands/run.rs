@@ -4,13 +4,15 @@ mod parameters;
 mod summary;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
 use app::evaluation::{self, Generation, machine_limits, within};
 use app::files;
 use clap::{Args, ValueEnum};
 use vv::diagnostic::Diagnostic;
-use vv::engine::{Failure, FailureKind, Limits, Settings};
+use vv::diagnostic::Severity;
+use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
 use vv::ir::{FunctionId, Program};
 use vv::mesh::Mesh;
 use vv::mesh::faces::{Faces, faces};
@@ -63,6 +65,9 @@ pub struct Arguments {
     /// Seed of `random()`.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     seed: u64,
+    /// Who runs the program; both give the same results.
+    #[arg(long, value_enum, value_name = "ENGINE", default_value_t)]
+    engine: EngineChoice,
     /// Write counts, invariants, warnings and timings to stdout as one object; `print` then goes to stderr.
     #[arg(long, value_enum, value_name = "FORMAT")]
     summary: Option<SummaryFormat>,
@@ -82,6 +87,15 @@ pub struct Arguments {
 enum SummaryFormat {
     /// One JSON object.
     Json,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum EngineChoice {
+    /// The interpreter, which defines what programs mean.
+    Interpret,
+    /// Machine code, made anew each time.
+    #[default]
+    Native,
 }
 
 /// Runs the program; `began` is when the process did.
@@ -104,6 +118,14 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     let compiling = Instant::now();
     let (program, found) = input::program(&arguments.program, reporter)?;
     let mut warnings = warnings_of(&found);
+    let engine = match arguments.engine {
+        EngineChoice::Interpret => Engine::Interpret,
+        EngineChoice::Native => Engine::Native,
+    };
+    let machine = Machine::new(Arc::clone(&program), engine);
+    if let Some(refusal) = machine.refusal() {
+        reporter.report(&[Diagnostic::new(Severity::Note, None, refusal)], &program.sources);
+    }
     timings.compile_s = compiling.elapsed().as_secs_f64();
 
     let (rule, steps) = plan(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
@@ -128,7 +150,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     let settings = Settings { params, seed: arguments.seed, limits, stop: Stop::new() };
     let to_stderr = arguments.output.to_stdout() || arguments.summary.is_some();
     let mut printer = Printer::new(to_stderr, reporter);
-    let run = Run { arguments, program: &program, settings, reporter };
+    let run = Run { arguments, machine: &machine, settings, reporter };
     let (mesh, found) = run.generations(mesh, rule.map(|rule| (rule, steps)), &mut printer, &mut timings)?;
     warnings.extend(found);
     if mesh.set.is_empty() && !targets.is_empty() {
@@ -236,7 +258,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 /// One run of a program.
 struct Run<'a> {
     arguments: &'a Arguments,
-    program: &'a Program,
+    machine: &'a Machine,
     settings: Settings,
     reporter: &'a Reporter,
 }
@@ -252,20 +274,20 @@ impl Run<'_> {
     ) -> Result<(Mesh, Vec<String>), Exit> {
         let mut warnings = Vec::new();
         let mut mesh = input;
-        if self.program.start.is_some() {
+        if self.machine.program().start.is_some() {
             let first = self.generation("`start`", &mut *printer, |settings, printer| {
-                evaluation::first(self.program, &mesh, settings, printer)
+                evaluation::first(self.machine, &mesh, settings, printer)
             })?;
             warnings.extend(self.warn("`start`", &first.warnings));
             mesh = first.mesh;
         }
         let Some((rule, steps)) = rule else { return Ok((mesh, warnings)) };
-        let name = self.program.function(rule).map_or("", |f| f.name.as_str());
+        let name = self.machine.program().function(rule).map_or("", |f| f.name.as_str());
         for step in 1..=steps {
             let what = format!("step {step} of {steps} of `{name}`");
             self.reporter.progress(format!("{what}: {} vertices", mesh.set.len()));
             let next = self.generation(&what, &mut *printer, |settings, printer| {
-                evaluation::advance(self.program, rule, &mesh, step, settings, printer)
+                evaluation::advance(self.machine, rule, &mesh, step, settings, printer)
             })?;
             warnings.extend(self.warn(&what, &next.warnings));
             mesh = next.mesh;
@@ -300,7 +322,7 @@ impl Run<'_> {
                 } else if exit == Exit::Budget && diagnostic.message.ends_with(" vertices") {
                     diagnostic = diagnostic.hint("allow more with `--max-vertices N`");
                 }
-                self.reporter.report(&[diagnostic], &self.program.sources);
+                self.reporter.report(&[diagnostic], &self.machine.program().sources);
                 Err(exit)
             }
             Ok(generation) => flushed.map(|()| generation),
@@ -317,7 +339,7 @@ impl Run<'_> {
                 warning
             })
             .collect();
-        self.reporter.report(&warnings, &self.program.sources);
+        self.reporter.report(&warnings, &self.machine.program().sources);
         warnings_of(&warnings)
     }
 

@@ -8,7 +8,7 @@ use std::sync::{Arc, PoisonError};
 
 use vv::Compilation;
 use vv::diagnostic::{Diagnostic, Severity};
-use vv::engine::{Failure, FailureKind, Limits, Settings};
+use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
 use vv::io::{Format, ReadError, ReadOptions};
 use vv::ir::Program;
 use vv::mesh::{Mesh, Value};
@@ -41,6 +41,8 @@ struct Compiled {
     text: Arc<str>,
     revision: u64,
     compilation: Compilation,
+    /// The program ready to run, if it has no error.
+    machine: Option<Arc<Machine>>,
     files: Vec<PathBuf>,
 }
 
@@ -116,14 +118,14 @@ impl Bench {
             return Err(Failed::said_before(FailureKind::Program, request.generation));
         };
         let (compilation, files) = (compiled.compilation.clone(), compiled.files.clone());
-        let program = compilation.program.clone();
+        let machine = compiled.machine.clone();
         self.report(ticket, Event::Compiled { compilation, files });
         self.report(ticket, Event::MeshRead { diagnostics: input.diagnostics.clone() });
         let Some(mesh) = input.mesh.clone() else {
             return Err(Failed::said_before(FailureKind::Program, 0));
         };
         let mesh_key = Some((recipe.mesh.clone(), recipe.mesh_revision));
-        let Some(program) = program else {
+        let Some(machine) = machine else {
             if self.shown_mesh != mesh_key {
                 let request = Request { recipe: Arc::clone(recipe), generation: 0 };
                 let first = Generation { mesh, ..Generation::default() };
@@ -134,7 +136,7 @@ impl Bench {
             }
             return Err(Failed::said_before(FailureKind::Program, request.generation));
         };
-        let frame = self.generation(ticket, request, &program, mesh, stop)?;
+        let frame = self.generation(ticket, request, &machine, mesh, stop)?;
         self.shown_mesh = mesh_key;
         Ok(frame)
     }
@@ -148,9 +150,13 @@ impl Bench {
         {
             return;
         }
-        let (compilation, files) = files::compile(&recipe.path, &recipe.text);
+        let (mut compilation, files) = files::compile(&recipe.path, &recipe.text);
+        let machine = compilation.program.clone().map(|p| Arc::new(Machine::new(p, Engine::Native)));
+        if let Some(refusal) = machine.as_ref().and_then(|m| m.refusal()) {
+            compilation.diagnostics.push(Diagnostic::new(Severity::Note, None, refusal));
+        }
         let (path, text) = (recipe.path.clone(), Arc::clone(&recipe.text));
-        self.compiled = Some(Compiled { path, text, revision, compilation, files });
+        self.compiled = Some(Compiled { path, text, revision, compilation, machine, files });
     }
 
     fn read(&mut self, recipe: &Recipe, stop: &Stop) -> Result<(), Failed> {
@@ -179,7 +185,7 @@ impl Bench {
         &mut self,
         ticket: u64,
         request: &Request,
-        program: &Arc<Program>,
+        machine: &Machine,
         input: Mesh,
         stop: &Stop,
     ) -> Result<Arc<Frame>, Failed> {
@@ -191,7 +197,7 @@ impl Bench {
                 History::new(Arc::clone(recipe))
             }
         };
-        let result = self.advance_to(ticket, request, program, input, stop, &mut history);
+        let result = self.advance_to(ticket, request, machine, input, stop, &mut history);
         // A step that failed leaves the generations before it as they were.
         self.history = Some(history);
         result
@@ -201,12 +207,13 @@ impl Bench {
         &self,
         ticket: u64,
         request: &Request,
-        program: &Arc<Program>,
+        machine: &Machine,
         input: Mesh,
         stop: &Stop,
         history: &mut History,
     ) -> Result<Arc<Frame>, Failed> {
         let recipe = &request.recipe;
+        let program = machine.program();
         let settings = Settings {
             params: params(program, &recipe.params),
             limits: self.limits,
@@ -225,7 +232,7 @@ impl Bench {
             let mut printer = Printer::new(&self.shared, &*self.wake, generation);
             lock(&self.shared.console).begin(generation);
             let result = match generation.checked_sub(1).and_then(|g| history.generations.get(&g)) {
-                None => evaluation::first(program, &input, &settings, &mut printer),
+                None => evaluation::first(machine, &input, &settings, &mut printer),
                 Some(before) => {
                     let rule = recipe.rule.as_deref().and_then(|name| program.rule(name));
                     let Some(rule) = rule.or_else(|| program.default_rule()) else {
@@ -236,7 +243,7 @@ impl Bench {
                             ..Failed::said_before(FailureKind::Program, generation)
                         });
                     };
-                    evaluation::advance(program, rule, &before.generation.mesh, generation, &settings, &mut printer)
+                    evaluation::advance(machine, rule, &before.generation.mesh, generation, &settings, &mut printer)
                 }
             };
             printer.flush();

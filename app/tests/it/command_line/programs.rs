@@ -1,5 +1,7 @@
 //! Programs run and checked.
 
+use std::fs;
+
 use super::*;
 
 #[test]
@@ -101,4 +103,19 @@ fn random_numbers_follow_the_seed() {
     let printed = |seed| folder.check(&format!("run p.vv -i square.off -n 2 --seed {seed}"), 0, "").stdout;
     assert_eq!(printed(1), printed(1));
     assert_ne!(printed(1), printed(2));
+}
+
+#[test]
+fn both_engines_say_and_write_the_same() {
+    let folder = Folder::with(&[("p.vv", "#include \"loop.vv\"\nvoid step(mesh& S) { loop(S); print(random()); }\n")]);
+    let made = |engine: &str| {
+        let ended = folder.check(&format!("run p.vv -i octahedron.obj -n 2 -o {engine}.obj --engine {engine}"), 0, "");
+        (ended.stdout, fs::read_to_string(folder.path(&format!("{engine}.obj"))).unwrap())
+    };
+    assert_eq!(made("interpret"), made("native"));
+    let failed = |engine: &str| {
+        let ended = folder.check(&format!("run failing.vv -i square.off --engine {engine}"), 1, "null");
+        (ended.stdout, ended.stderr)
+    };
+    assert_eq!(failed("interpret"), failed("native"));
 }
