@@ -2,6 +2,9 @@
 //!
 //! [`run`] does one step (or `start`) on a copy of a mesh and gives back the new mesh, not yet closed
 //! ([`crate::mesh::close`]). If it fails the copy is dropped, so a failed step leaves the mesh as it was.
+//!
+//! [`run`] is the interpreter, which defines what programs mean. A [`Machine`] keeps a program ready from step to step,
+//! as machine code where it may, with the same results.
 
 mod interpret;
 mod native;

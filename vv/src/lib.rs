@@ -8,7 +8,8 @@
 //! ```
 //!
 //! A pure library: no window, no clock, no thread of its own, no file system. Texts come in as strings, meshes as
-//! bytes; whoever calls decides where from, how long and on which thread.
+//! bytes; whoever calls decides where from, how long and on which thread. Who steps a program more than once keeps an
+//! [`engine::Machine`].
 
 pub mod builtins;
 pub mod check;
