@@ -10,7 +10,6 @@
 mod part;
 #[cfg(test)]
 mod tests;
-mod triangulate;
 
 use glam::{DVec3, Vec3};
 

@@ -23,6 +23,7 @@ mod property;
 mod ring;
 mod set;
 pub mod statistics;
+pub mod triangulate;
 mod twins;
 pub mod validate;
 

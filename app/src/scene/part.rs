@@ -3,10 +3,9 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use vv::mesh::faces::Faces;
+use vv::mesh::triangulate::{Triangulator, newell};
 use vv::mesh::{Mesh, Vertex};
 use vv::stop::{Stop, Stopped};
-
-use super::triangulate::{Triangulator, newell};
 
 /// A vertex as the GPU reads it: five words.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

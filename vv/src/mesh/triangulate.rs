@@ -8,7 +8,7 @@ const MOST_EARS: usize = 10_000;
 
 /// Cuts polygons into triangles; keeps its memory from one polygon to the next.
 #[derive(Default)]
-pub(super) struct Triangulator {
+pub struct Triangulator {
     earcut: earcut::Earcut<f64>,
     flat: Vec<[f64; 2]>,
     corners: Vec<u32>,
@@ -16,7 +16,8 @@ pub(super) struct Triangulator {
 
 /// Twice the vector area of a polygon, by Newell's method: `Σ (pᵢ − c) × (pᵢ₊₁ − c)`. Its direction is the normal of
 /// the plane that fits best, its length does not depend on where the polygon starts.
-pub(super) fn newell(points: &[DVec3]) -> DVec3 {
+#[must_use]
+pub fn newell(points: &[DVec3]) -> DVec3 {
     let (&[first, ..], Some(&last)) = (points, points.last()) else { return DVec3::ZERO };
     let mut sum = DVec3::ZERO;
     let mut before = last - first;
@@ -34,7 +35,7 @@ impl Triangulator {
     /// Convex polygons become fans (quadrilaterals are cut along the shorter diagonal), concave ones are cut by ears
     /// after projection on the plane that fits best. One that projects onto a line becomes a fan too: none of its
     /// triangulations is better than another; so does a concave one with more than 10,000 corners.
-    pub(super) fn triangles(&mut self, points: &[DVec3], normal: DVec3, out: &mut Vec<[u32; 3]>) {
+    pub fn triangles(&mut self, points: &[DVec3], normal: DVec3, out: &mut Vec<[u32; 3]>) {
         out.clear();
         match points {
             [] | [_] | [_, _] => return,
