@@ -5,16 +5,22 @@
 //! leaves its result in the context. Whatever is an error in the language jumps to one cold block that returns
 //! [`status::REPEAT`]: the interpreter then says what it was.
 
+mod builtin;
+mod call;
+mod edit;
+mod emit;
 mod expression;
 mod known;
 mod place;
 mod ring;
+mod set;
 mod statement;
+mod variable;
+mod walk;
 
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{
-    AbiParam, AliasRegionData, Block, BlockArg, FuncRef, InstBuilder, MemFlagsData, Signature, StackSlotData,
-    StackSlotKind, Type as ClifType, Value, types,
+    AbiParam, AliasRegionData, Block, FuncRef, InstBuilder, MemFlagsData, Signature, Type as ClifType, Value, types,
 };
 use cranelift_frontend::{FunctionBuilder, Variable};
 use cranelift_jit::JITModule;
@@ -23,9 +29,9 @@ use rustc_hash::FxHashMap;
 
 use super::Mutation;
 use super::context::{self, Layout, Memo, status};
-use super::effects::{Facts, Keeping};
+use super::effects::Facts;
 use super::run::Symbol;
-use crate::ir::{Function, FunctionId, LocalId, Passing, Program, Type};
+use crate::ir::{Function, FunctionId, Passing, Program, Type};
 use crate::mesh;
 use crate::source::Span;
 
@@ -383,256 +389,5 @@ impl<'t, 'p> Translator<'t, 'p> {
     /// Whether this is to be translated wrongly.
     fn mutated(&self, mutation: Mutation) -> bool {
         self.unit.mutation == mutation
-    }
-
-    fn frame(&self) -> Translated<&Frame<'p>> {
-        self.frames.last().ok_or_else(wrong_type)
-    }
-
-    fn frame_mut(&mut self) -> Translated<&mut Frame<'p>> {
-        self.frames.last_mut().ok_or_else(wrong_type)
-    }
-
-    fn storage(&self, local: LocalId) -> Translated<Storage> {
-        self.frame()?.storage.get(local.0 as usize).copied().ok_or_else(wrong_type)
-    }
-
-    fn type_of(&self, local: LocalId) -> Translated<mesh::Type> {
-        match self.frame()?.function.locals.get(local.0 as usize).map(|l| l.ty) {
-            Some(Type::Value(ty)) => Ok(ty),
-            _ => Err(wrong_type()),
-        }
-    }
-
-    /// Index of the set behind a variable of type mesh.
-    fn set_of(&self, local: LocalId) -> Translated<Value> {
-        match self.storage(local)? {
-            Storage::Set(index) => Ok(index),
-            _ => Err(wrong_type()),
-        }
-    }
-
-    fn allocate(&mut self, ty: mesh::Type, keeping: Keeping) -> Storage {
-        match keeping {
-            Keeping::Fixed => Storage::None,
-            Keeping::Variable => {
-                let types = clif_types(ty);
-                let mut variables = [Variable::from_u32(0); 3];
-                for (variable, &t) in variables.iter_mut().zip(types) {
-                    *variable = self.b.declare_var(t);
-                }
-                Storage::Variables(variables, types.len())
-            }
-            Keeping::Memory => {
-                let data = StackSlotData::new(StackSlotKind::ExplicitSlot, context::value_size(ty) as u32, 3);
-                let slot = self.b.create_sized_stack_slot(data);
-                Storage::Memory(self.b.ins().stack_addr(types::I64, slot, 0))
-            }
-        }
-    }
-
-    /// Stores a value, and says where it lives from now on.
-    fn define(&mut self, storage: Storage, ty: mesh::Type, value: Val) -> Storage {
-        match storage {
-            Storage::None | Storage::Fixed(_) => Storage::Fixed(value),
-            Storage::Variables(variables, n) => {
-                for (&variable, &part) in variables.iter().take(n).zip(value.parts()) {
-                    self.b.def_var(variable, part);
-                }
-                storage
-            }
-            Storage::Memory(address) => {
-                let flags = self.regions.locals;
-                for (k, &part) in value.parts().iter().enumerate() {
-                    self.b.ins().store(flags, part, address, 8 * k as i32);
-                }
-                let _ = ty;
-                storage
-            }
-            Storage::Set(_) => storage,
-        }
-    }
-
-    fn define_local(&mut self, local: LocalId, value: Val) -> Translated<()> {
-        let ty = self.type_of(local)?;
-        let storage = self.storage(local)?;
-        let storage = self.define(storage, ty, value);
-        if let Some(place) = self.frame_mut()?.storage.get_mut(local.0 as usize) {
-            *place = storage;
-        }
-        Ok(())
-    }
-
-    fn read_local(&mut self, local: LocalId) -> Translated<Val> {
-        let ty = self.type_of(local)?;
-        Ok(match self.storage(local)? {
-            Storage::Fixed(value) => value,
-            Storage::Variables(variables, n) => {
-                let mut parts = [self.context; 3];
-                for (part, &variable) in parts.iter_mut().zip(variables.iter().take(n)) {
-                    *part = self.b.use_var(variable);
-                }
-                Val::from_parts(&parts[..n])
-            }
-            Storage::Memory(address) => {
-                let flags = self.regions.locals;
-                self.load_value(ty, flags, address, 0)
-            }
-            Storage::None | Storage::Set(_) => return Err(Refused("a variable is used before it is declared".into())),
-        })
-    }
-
-    /// Loads a value of a type; its parts lie one after the other.
-    fn load_value(&mut self, ty: mesh::Type, flags: MemFlagsData, address: Value, offset: i32) -> Val {
-        let mut parts = [address; 3];
-        let types = clif_types(ty);
-        for (k, (part, &t)) in parts.iter_mut().zip(types).enumerate() {
-            *part = self.b.ins().load(t, flags, address, offset + 8 * k as i32);
-        }
-        Val::from_parts(&parts[..types.len()])
-    }
-
-    fn load_context(&mut self, ty: ClifType, offset: i32) -> Value {
-        let (flags, context) = (self.regions.context, self.context);
-        self.b.ins().load(ty, flags, context, offset)
-    }
-
-    fn store_context(&mut self, value: Value, offset: i32) {
-        let (flags, context) = (self.regions.context, self.context);
-        self.b.ins().store(flags, value, context, offset);
-    }
-
-    /// The value in the words through which runtime functions answer.
-    fn load_words(&mut self, ty: mesh::Type) -> Val {
-        let (flags, context) = (self.regions.context, self.context);
-        self.load_value(ty, flags, context, context::VALUE)
-    }
-
-    fn store_words(&mut self, value: Val) {
-        self.store_words_at(value, 0);
-    }
-
-    fn store_words_at(&mut self, value: Val, first: usize) {
-        for (k, &part) in value.parts().iter().enumerate() {
-            let part = self.widen(part);
-            self.store_context(part, context::VALUE + 8 * (first + k) as i32);
-        }
-    }
-
-    /// A part of a value as eight bytes.
-    fn widen(&mut self, part: Value) -> Value {
-        match self.b.func.dfg.value_type(part) {
-            types::I8 | types::I32 => self.b.ins().uextend(types::I64, part),
-            _ => part,
-        }
-    }
-
-    fn int32(&mut self, n: u32) -> Value {
-        self.b.ins().iconst(types::I32, i64::from(n))
-    }
-
-    /// Goes on in a new block unless `bad` holds, which fails.
-    fn fail_if(&mut self, bad: Value) {
-        let fail = self.fail;
-        self.leave_if(bad, fail);
-    }
-
-    fn leave_if(&mut self, bad: Value, to: Block) {
-        let next = self.b.create_block();
-        self.b.ins().brif(bad, to, &[], next, &[]);
-        self.b.switch_to_block(next);
-        self.b.seal_block(next);
-    }
-
-    /// Calls a runtime function, whose first operand is the context.
-    fn call(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
-        let mut all = vec![self.context];
-        all.extend_from_slice(operands);
-        self.call_with(symbol, &all)
-    }
-
-    fn call_with(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
-        let function = match self.symbol_refs.get(&symbol) {
-            Some(&f) => f,
-            None => {
-                let id = self.unit.symbols.get(&symbol).copied()?;
-                let f = self.module.declare_func_in_func(id, self.b.func);
-                self.symbol_refs.insert(symbol, f);
-                f
-            }
-        };
-        let call = self.b.ins().call(function, operands);
-        self.b.inst_results(call).first().copied()
-    }
-
-    /// Calls a runtime function that returns a status, and fails where that is not zero.
-    fn call_or_fail(&mut self, symbol: Symbol, operands: &[Value]) {
-        if let Some(status) = self.call(symbol, operands) {
-            self.fail_if(status);
-        }
-    }
-
-    fn new_set(&mut self) -> Value {
-        match self.call(Symbol::SetNew, &[]) {
-            Some(index) => {
-                self.fail_if_no_set(index);
-                index
-            }
-            None => self.int32(0),
-        }
-    }
-
-    fn fail_if_no_set(&mut self, index: Value) {
-        let none = self.b.ins().icmp_imm_s(IntCC::Equal, index, -1);
-        self.fail_if(none);
-    }
-
-    /// A place where the code may be stopped.
-    fn site(&mut self, span: Span) -> u32 {
-        let calls = self.frames.iter().rev().filter_map(|f| Some((f.function.name.clone(), f.call?))).collect();
-        self.unit.sites.push(Site { span, function: self.name.clone(), calls });
-        self.unit.sites.len() as u32 - 1
-    }
-
-    /// Asks whether the run shall stop.
-    fn poll(&mut self, span: Span) {
-        let flag = self.load_context(types::I64, context::STOP);
-        // No alias region: another thread writes it.
-        let stop = self.b.ins().load(types::I8, MemFlagsData::trusted(), flag, 0);
-        let stopped = self.b.create_block();
-        self.b.set_cold_block(stopped);
-        let next = self.b.create_block();
-        self.b.ins().brif(stop, stopped, &[], next, &[]);
-        self.b.switch_to_block(stopped);
-        self.b.seal_block(stopped);
-        self.leave_with(status::STOPPED, span);
-        self.b.switch_to_block(next);
-        self.b.seal_block(next);
-    }
-
-    /// Leaves the function with a status that has a place.
-    fn leave_with(&mut self, status: u32, span: Span) {
-        let site = self.site(span);
-        let site = self.b.ins().iconst(types::I64, i64::from(site));
-        self.store_context(site, context::SITE);
-        let status = self.int32(status);
-        self.b.ins().return_(&[status]);
-    }
-
-    /// A block that takes values of these types.
-    fn block_with(&mut self, types: &[ClifType]) -> (Block, Vec<Value>) {
-        let block = self.b.create_block();
-        let values = types.iter().map(|&t| self.b.append_block_param(block, t)).collect();
-        (block, values)
-    }
-
-    fn jump_with(&mut self, block: Block, values: &[Value]) {
-        let values: Vec<BlockArg> = values.iter().map(|&v| BlockArg::Value(v)).collect();
-        self.b.ins().jump(block, &values);
-    }
-
-    fn continue_in(&mut self, block: Block) {
-        self.b.switch_to_block(block);
-        self.b.seal_block(block);
     }
 }

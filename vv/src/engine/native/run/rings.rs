@@ -1,6 +1,7 @@
 //! Rings and old values: what compiled code leaves to the runtime.
 
-use super::{Context, PADDING, Run, guard, light, status, vertex};
+use super::super::context::PADDING;
+use super::{Context, Run, guard, light, status, vertex};
 use crate::mesh::{Mesh, Ring, Vertex};
 
 impl Run<'_> {

@@ -2,7 +2,7 @@
 
 use cranelift_codegen::ir::{Type, types};
 
-use super::{edges, print, rings, sets};
+use super::{builtins, edges, memory, print, rings, sets};
 
 macro_rules! runtime {
     ($($name:ident = $function:path, ($($operand:ident),*) $(-> $result:ident)?;)*) => {
@@ -46,12 +46,12 @@ macro_rules! runtime {
 }
 
 runtime! {
-    GrowVertices = super::grow_vertices, (I64) -> I32;
-    GrowSlots = super::grow_slots, (I64, I64) -> I32;
+    GrowVertices = memory::grow_vertices, (I64) -> I32;
+    GrowSlots = memory::grow_slots, (I64, I64) -> I32;
     Unwind = super::unwind, (I64, I32);
-    CallBuiltin = super::call_builtin, (I64, I32) -> I32;
-    CallD1 = super::call_d1, (I64, F64) -> F64;
-    CallD2 = super::call_d2, (I64, F64, F64) -> F64;
+    CallBuiltin = builtins::call_builtin, (I64, I32) -> I32;
+    CallD1 = builtins::call_d1, (I64, F64) -> F64;
+    CallD2 = builtins::call_d2, (I64, F64, F64) -> F64;
     Synchronize = rings::synchronize, (I64, I32, I32) -> I32;
     Holds = rings::holds, (I64, I32) -> I32;
     Make = rings::make, (I64, I32, I64, I32) -> I32;

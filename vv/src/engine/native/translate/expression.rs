@@ -2,18 +2,12 @@
 
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::{InstBuilder, Type as ClifType, Value, types};
-use cranelift_module::Module;
 
-use super::{Frame, Storage, Symbol, Translated, Translator, Val, clif_types, wrong_type};
-use crate::builtins::{Builtin, Code};
-use crate::engine::native::context::{self, Memo};
+use super::{Symbol, Translated, Translator, Val, clif_types, wrong_type};
+use crate::engine::native::context;
 use crate::engine::native::{Mutation, RED_ZONE, STACK_SEGMENT};
-use crate::ir::{
-    Argument, Binary, Comparison, Conversion, Expr, ExprKind, Function, FunctionId, Item, Ring, Stmt, StmtKind, Type,
-    Unary,
-};
+use crate::ir::{Binary, Comparison, Conversion, Expr, ExprKind, Item, Ring, Type, Unary};
 use crate::mesh;
-use crate::source::Span;
 
 impl<'p> Translator<'_, 'p> {
     pub(super) fn expression(&mut self, e: &'p Expr) -> Translated<Val> {
@@ -137,23 +131,6 @@ impl<'p> Translator<'_, 'p> {
         let old = ring.old && !self.mutated(Mutation::OldRingIsNew);
         let found = self.find(x, v, old);
         Ok(Val::One(self.neighbour(found, forward, old)))
-    }
-
-    fn is_in_set(&mut self, vertex: &'p Expr, set: &'p Expr) -> Translated<Val> {
-        let v = self.vertex(vertex)?;
-        let (set, mark) = self.set(set)?;
-        let ask = self.b.create_block();
-        let (done, is) = self.block_with(&[types::I8]);
-        let no = self.b.ins().iconst(types::I8, 0);
-        self.b.ins().brif(v, ask, &[], done, &[no.into()]);
-        self.continue_in(ask);
-        let contains = self.call(Symbol::SetContains, &[set, v]).ok_or_else(wrong_type)?;
-        let contains = self.b.ins().ireduce(types::I8, contains);
-        let contains = self.inverted_if(contains, Mutation::IsInSetInverted);
-        self.jump_with(done, &[contains]);
-        self.continue_in(done);
-        self.drop_sets(mark);
-        Ok(Val::One(is[0]))
     }
 
     fn short_circuit(&mut self, a: &'p Expr, b: &'p Expr, decides: bool) -> Translated<Val> {
@@ -326,7 +303,7 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// A bool, the other one where that is to be wrong.
-    fn inverted_if(&mut self, is: Value, mutation: Mutation) -> Value {
+    pub(super) fn inverted_if(&mut self, is: Value, mutation: Mutation) -> Value {
         if self.mutated(mutation) { self.b.ins().bxor_imm_u(is, 1) } else { is }
     }
 
@@ -341,281 +318,6 @@ impl<'p> Translator<'_, 'p> {
             _ => self.b.ins().fdiv(a, b),
         }
     }
-
-    fn builtin(&mut self, builtin: Builtin, arguments: &[Val]) -> Translated<Val> {
-        if let Some(result) = self.builtin_in_line(builtin, arguments)? {
-            return Ok(result);
-        }
-        match (builtin.code(), arguments) {
-            (Code::D1(f), &[x]) => return Ok(Val::One(self.remembered(builtin, f as usize, &[x.one()?])?)),
-            (Code::D2(f), &[x, y]) => {
-                return Ok(Val::One(self.remembered(builtin, f as usize, &[x.one()?, y.one()?])?));
-            }
-            _ => {}
-        }
-        let mut at = 0;
-        for value in arguments {
-            self.store_words_at(*value, at);
-            at += value.parts().len();
-        }
-        let index = Builtin::all().position(|b| b == builtin).ok_or_else(wrong_type)?;
-        let index = self.int32(index as u32);
-        self.call_or_fail(Symbol::CallBuiltin, &[index]);
-        Ok(self.load_words(builtin.returns()))
-    }
-
-    /// Functions that are an instruction or two, each with the operations of the table in their order.
-    fn builtin_in_line(&mut self, builtin: Builtin, arguments: &[Val]) -> Translated<Option<Val>> {
-        Ok(Some(match (builtin.name(), builtin.code(), arguments) {
-            ("sqrt", Code::D1(_), &[x]) => Val::One(self.b.ins().sqrt(x.one()?)),
-            ("fabs" | "abs", Code::D1(_), &[x]) => Val::One(self.b.ins().fabs(x.one()?)),
-            ("floor", Code::D1(_), &[x]) => Val::One(self.b.ins().floor(x.one()?)),
-            ("ceil", Code::D1(_), &[x]) => Val::One(self.b.ins().ceil(x.one()?)),
-            ("trunc", Code::D1(_), &[x]) => Val::One(self.b.ins().trunc(x.one()?)),
-            ("min" | "max", Code::D2(_), &[a, b]) => {
-                let (a, b) = (a.one()?, b.one()?);
-                let min = (builtin.name() == "min") != self.mutated(Mutation::MinIsMax);
-                let takes_b = if min {
-                    self.b.ins().fcmp(FloatCC::LessThan, b, a)
-                } else {
-                    self.b.ins().fcmp(FloatCC::LessThan, a, b)
-                };
-                Val::One(self.b.ins().select(takes_b, b, a))
-            }
-            ("min" | "max", Code::I2(_), &[a, b]) => {
-                let (a, b) = (a.one()?, b.one()?);
-                let min = (builtin.name() == "min") != self.mutated(Mutation::MinIsMax);
-                Val::One(if min { self.b.ins().smin(a, b) } else { self.b.ins().smax(a, b) })
-            }
-            ("vec", Code::VecFromD3(_), &[x, y, z]) => Val::Vec([x.one()?, y.one()?, z.one()?]),
-            ("dot", Code::DFromVec2(_), &[a, b]) => Val::One(self.dot(a.vec()?, b.vec()?)),
-            ("cross", Code::Vec2(_), &[a, b]) => {
-                let (a, b) = (a.vec()?, b.vec()?);
-                Val::Vec([(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
-                    let (i, j) = if self.mutated(Mutation::CrossIsNegated) { (j, i) } else { (i, j) };
-                    let first = self.b.ins().fmul(a[i], b[j]);
-                    let second = self.b.ins().fmul(a[j], b[i]);
-                    self.b.ins().fsub(first, second)
-                }))
-            }
-            ("length", Code::DFromVec1(_), &[v]) => Val::One(self.length(v.vec()?)),
-            ("distance", Code::DFromVec2(_), &[a, b]) => {
-                let (a, b) = (a.vec()?, b.vec()?);
-                let d = [0, 1, 2].map(|k| self.b.ins().fsub(a[k], b[k]));
-                Val::One(self.length(d))
-            }
-            ("normalize", Code::Vec1(_), &[v]) => {
-                let v = v.vec()?;
-                let length = self.length(v);
-                let zero = self.b.ins().f64const(0.0);
-                let none = self.b.ins().fcmp(FloatCC::Equal, length, zero);
-                Val::Vec(v.map(|x| {
-                    let scaled = self.b.ins().fdiv(x, length);
-                    self.b.ins().select(none, zero, scaled)
-                }))
-            }
-            _ => return Ok(None),
-        }))
-    }
-
-    fn dot(&mut self, a: [Value; 3], b: [Value; 3]) -> Value {
-        let [x, y, z] = [0, 1, 2].map(|k| self.b.ins().fmul(a[k], b[k]));
-        let xy = self.b.ins().fadd(x, y);
-        if self.mutated(Mutation::DotForgetsZ) {
-            return xy;
-        }
-        self.b.ins().fadd(xy, z)
-    }
-
-    fn length(&mut self, v: [Value; 3]) -> Value {
-        let square = self.dot(v, v);
-        self.b.ins().sqrt(square)
-    }
-
-    /// Calls a function of one or two doubles, unless its operands are those of the last time.
-    ///
-    /// In refinement the same few valences ask for the same cosines again and again.
-    fn remembered(&mut self, builtin: Builtin, function: usize, operands: &[Value]) -> Translated<Value> {
-        let memo = self.unit.layout.add_memo();
-        let word = self.unit.layout.memo(memo);
-        let offset = context::byte_offset(word);
-        self.unit.memos.push(Memo { builtin, word });
-        let mut same = self.b.ins().iconst(types::I8, 1);
-        let mut all = vec![self.b.ins().iconst(types::I64, function as i64)];
-        let mut bits = Vec::new();
-        for (k, &x) in operands.iter().enumerate() {
-            let x_bits = self.b.ins().bitcast(types::I64, cranelift_codegen::ir::MemFlagsData::new(), x);
-            let last = self.load_context(types::I64, offset + 8 * k as i32);
-            let equal = self.b.ins().icmp(IntCC::Equal, x_bits, last);
-            same = if k == 0 { equal } else { self.b.ins().band(same, equal) };
-            bits.push(x_bits);
-            all.push(x);
-        }
-        if self.mutated(Mutation::MemoIsStale) {
-            same = self.b.ins().iconst(types::I8, 1);
-        }
-        let [again, compute] = [(); 2].map(|()| self.b.create_block());
-        let (done, result) = self.block_with(&[types::F64]);
-        self.b.ins().brif(same, again, &[], compute, &[]);
-        self.continue_in(again);
-        let kept = self.load_context(types::F64, offset + 16);
-        self.jump_with(done, &[kept]);
-        self.continue_in(compute);
-        let symbol = if operands.len() == 1 { Symbol::CallD1 } else { Symbol::CallD2 };
-        let computed = self.call_with(symbol, &all).ok_or_else(wrong_type)?;
-        for (k, &x_bits) in bits.iter().enumerate() {
-            self.store_context(x_bits, offset + 8 * k as i32);
-        }
-        self.store_context(computed, offset + 16);
-        self.jump_with(done, &[computed]);
-        self.continue_in(done);
-        Ok(result[0])
-    }
-
-    /// Calls a function of the program, or lets its code stand here.
-    pub(super) fn call_function(&mut self, id: FunctionId, arguments: &'p [Argument], span: Span) -> Translated<Val> {
-        let function = self.program.function(id).ok_or_else(wrong_type)?;
-        let facts = self.unit.facts.function(id).ok_or_else(wrong_type)?;
-        let (inline, effects) = (facts.inline, facts.effects);
-        if inline {
-            return self.stand_in(id, function, arguments, span);
-        }
-        let mut mark = None;
-        let mut operands = vec![self.context];
-        for argument in arguments {
-            match argument {
-                Argument::Value(e) if e.ty == Type::Mesh => {
-                    if mark.is_none() {
-                        mark = Some(self.load_context(types::I64, context::SET_COUNT));
-                    }
-                    let (set, _) = self.set(e)?;
-                    let copy = self.call(Symbol::SetCopy, &[set]).ok_or_else(wrong_type)?;
-                    self.fail_if_no_set(copy);
-                    operands.push(copy);
-                }
-                Argument::Value(e) => operands.extend_from_slice(self.expression(e)?.parts()),
-                Argument::Reference(local) => match self.address_of(*local)? {
-                    Storage::Memory(address) => operands.push(address),
-                    Storage::Set(index) => operands.push(index),
-                    _ => return Err(wrong_type()),
-                },
-            }
-        }
-        if self.mutated(Mutation::CallsWithZeros) {
-            for operand in operands.iter_mut().skip(1) {
-                if self.b.func.dfg.value_type(*operand) == types::F64 {
-                    *operand = self.b.ins().f64const(0.0);
-                }
-            }
-        }
-        self.poll(span);
-        let callee = match self.function_refs.get(&id) {
-            Some(&f) => f,
-            None => {
-                let compiled = self.unit.functions.get(&id).copied().ok_or_else(wrong_type)?;
-                let f = self.module.declare_func_in_func(compiled, self.b.func);
-                self.function_refs.insert(id, f);
-                f
-            }
-        };
-        let call = self.b.ins().call(callee, &operands);
-        let status = self.b.inst_results(call)[0];
-        let left = self.b.create_block();
-        self.b.set_cold_block(left);
-        self.leave_to(status, left);
-        let site = self.site(span);
-        let (current, next) = (left, self.b.current_block());
-        self.continue_in(current);
-        let site = self.int32(site);
-        self.call(Symbol::Unwind, &[site]);
-        self.b.ins().return_(&[status]);
-        if let Some(next) = next {
-            self.b.switch_to_block(next);
-        }
-        if effects.edits {
-            self.known.forget_rings(false);
-        }
-        if effects.synchronizes {
-            self.known.forget_rings(true);
-        }
-        let result = match function.returns {
-            Type::Value(ty) => self.load_words(ty),
-            _ => Val::Void,
-        };
-        self.drop_sets(mark);
-        Ok(result)
-    }
-
-    fn leave_to(&mut self, bad: Value, to: cranelift_codegen::ir::Block) {
-        self.leave_if(bad, to);
-    }
-
-    /// Translates the statements of a function in place of its call.
-    fn stand_in(
-        &mut self,
-        id: FunctionId,
-        function: &'p Function,
-        arguments: &'p [Argument],
-        span: Span,
-    ) -> Translated<Val> {
-        let keeping = self.unit.facts.function(id).ok_or_else(wrong_type)?.keeping.clone();
-        let mut storage = Vec::with_capacity(function.locals.len());
-        for (i, argument) in arguments.iter().enumerate() {
-            let place = match argument {
-                Argument::Value(e) => {
-                    let value = self.expression(e)?;
-                    let Some(Type::Value(ty)) = function.locals.get(i).map(|l| l.ty) else { return Err(wrong_type()) };
-                    let place = self.allocate(ty, keeping[i]);
-                    self.define(place, ty, value)
-                }
-                // The caller's variable itself.
-                Argument::Reference(local) => self.address_of(*local)?,
-            };
-            storage.push(place);
-        }
-        for (local, &keeping) in function.locals.iter().zip(&keeping).skip(arguments.len()) {
-            let place = match local.ty {
-                Type::Value(ty) => self.allocate(ty, keeping),
-                _ => Storage::None,
-            };
-            storage.push(place);
-        }
-        let straight = returns_only_at_its_end(&function.body);
-        let exit = if straight { None } else { Some(self.b.create_block()) };
-        let result: Vec<_> = match function.returns {
-            Type::Value(ty) => clif_types(ty).iter().map(|&t| self.b.declare_var(t)).collect(),
-            _ => Vec::new(),
-        };
-        let frame = Frame { function, storage, call: Some(span), exit, result: result.clone(), loops: Vec::new() };
-        self.frames.push(frame);
-        if !straight {
-            self.known.enter();
-        }
-        let goes_on = self.block(&function.body)?;
-        if !straight {
-            self.known.leave();
-        }
-        self.frames.pop();
-        if let Some(exit) = exit {
-            if goes_on {
-                self.b.ins().jump(exit, &[]);
-            }
-            self.continue_in(exit);
-        }
-        let parts: Vec<Value> = result.into_iter().map(|v| self.b.use_var(v)).collect();
-        Ok(Val::from_parts(&parts))
-    }
-}
-
-/// Whether the only `return` is the last statement, if there is one.
-fn returns_only_at_its_end(body: &[Stmt]) -> bool {
-    let mut returns = 0;
-    crate::engine::native::effects::each(body, &mut |node| {
-        if let crate::engine::native::effects::Node::Stmt(s) = node {
-            returns += usize::from(matches!(s.kind, StmtKind::Return(_)));
-        }
-    });
-    returns == 0 || returns == 1 && matches!(body.last().map(|s| &s.kind), Some(StmtKind::Return(_)))
 }
 
 fn signed(c: Comparison) -> IntCC {

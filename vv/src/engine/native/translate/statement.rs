@@ -1,15 +1,14 @@
 //! Statements. Each says whether what follows it can be reached.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, InstBuilder, Value, types};
+use cranelift_codegen::ir::{Block, InstBuilder, types};
 
-use super::known::{Fact, Found, Key};
 use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context::{self, status};
-use crate::engine::native::effects::{Effects, Node, each_in};
+use crate::engine::native::effects::{Node, each_in};
 use crate::engine::native::{RED_ZONE, STACK_SEGMENT};
-use crate::ir::{Expr, ExprKind, LocalId, PrintItem, Ring, Stmt, StmtKind, Type};
+use crate::ir::{Expr, ExprKind, LocalId, PrintItem, Stmt, StmtKind, Type};
 use crate::mesh;
 use crate::source::Span;
 
@@ -163,202 +162,6 @@ impl<'p> Translator<'_, 'p> {
         }
     }
 
-    /// What a loop does is forgotten before it begins, for it holds for its second round.
-    fn forget(&mut self, effects: Effects) {
-        if effects.edits {
-            self.known.forget_rings(false);
-        }
-        if effects.synchronizes {
-            self.known.forget_rings(true);
-        }
-    }
-
-    fn repeat(
-        &mut self,
-        condition: Option<&'p Expr>,
-        body: &'p [Stmt],
-        update: &'p [Expr],
-        body_first: bool,
-        span: Span,
-    ) -> Translated<bool> {
-        let span = condition.map_or(span, |c| c.span);
-        self.forget(self.unit.facts.effects_of(body, update, condition));
-        let [head, round, next, exit] = [(); 4].map(|()| self.b.create_block());
-        // The condition stands twice, before the first round and at the end of each, unless it is long.
-        let twice = condition.is_some_and(is_short);
-        match condition {
-            Some(c) if !body_first && twice => {
-                self.known.enter();
-                let holds = self.condition(c)?;
-                self.known.leave();
-                self.b.ins().brif(holds, round, &[], exit, &[]);
-            }
-            Some(_) if !body_first => {
-                self.b.ins().jump(head, &[]);
-            }
-            _ => {
-                self.b.ins().jump(round, &[]);
-            }
-        }
-        self.b.switch_to_block(round);
-        self.known.enter();
-        self.poll(span);
-        self.frame_mut()?.loops.push(Loop { next, exit, walk: Walk::Nothing });
-        let goes_on = self.block(body)?;
-        self.frame_mut()?.loops.pop();
-        if goes_on {
-            self.b.ins().jump(next, &[]);
-        }
-        self.known.leave();
-        self.b.switch_to_block(next);
-        self.b.seal_block(next);
-        self.known.enter();
-        for e in update {
-            self.expression(e)?;
-        }
-        match condition {
-            Some(c) if twice => {
-                let holds = self.condition(c)?;
-                self.b.ins().brif(holds, round, &[], exit, &[]);
-            }
-            Some(_) => {
-                self.b.ins().jump(head, &[]);
-            }
-            None => {
-                self.b.ins().jump(round, &[]);
-            }
-        }
-        self.known.leave();
-        self.b.switch_to_block(head);
-        self.b.seal_block(head);
-        match condition {
-            Some(c) if !twice => {
-                self.known.enter();
-                let holds = self.condition(c)?;
-                self.known.leave();
-                self.b.ins().brif(holds, round, &[], exit, &[]);
-            }
-            _ => {
-                self.b.ins().jump(exit, &[]);
-            }
-        }
-        self.b.seal_block(round);
-        self.continue_in(exit);
-        // `while (true)` without a `break` has an exit that no one takes; what follows is compiled, and never runs.
-        Ok(true)
-    }
-
-    fn for_set(&mut self, local: LocalId, set: &'p Expr, body: &'p [Stmt]) -> Translated<()> {
-        let span = set.span;
-        let (index, mark) = self.set(set)?;
-        let depth = self.call(Symbol::SetWalk, &[index]).ok_or_else(wrong_type)?;
-        let none = self.b.ins().icmp_imm_s(IntCC::Equal, depth, -1);
-        self.fail_if(none);
-        let first = self.load_context(types::I64, context::VALUE);
-        let count = self.load_context(types::I64, context::VALUE + 8);
-        self.drop_sets(mark);
-        let bytes = self.b.ins().ishl_imm_u(count, 2);
-        let end = self.b.ins().iadd(first, bytes);
-        self.forget(self.unit.facts.effects_of(body, &[], None));
-        let exit = self.b.create_block();
-        let flags = self.regions.members;
-        self.walk(local, first, end, span, Walk::Set(depth), exit, body, |t, at| {
-            t.b.ins().load(types::I32, flags, at, 0)
-        })?;
-        self.continue_in(exit);
-        self.call(Symbol::SetWalkEnd, &[depth]);
-        Ok(())
-    }
-
-    fn for_ring(&mut self, local: LocalId, ring: &'p Ring, body: &'p [Stmt]) -> Translated<()> {
-        let span = ring.vertex.span;
-        let v = self.ring_owner(ring)?;
-        let effects = self.unit.facts.effects_of(body, &[], None);
-        let moves = if ring.old { effects.synchronizes } else { effects.edits };
-        let exit = self.b.create_block();
-        if moves {
-            let of_old = self.int32(u32::from(ring.old));
-            let start = self.call(Symbol::Walk, &[v, of_old]).ok_or_else(wrong_type)?;
-            let none = self.b.ins().icmp_imm_s(IntCC::Equal, start, -1);
-            self.fail_if(none);
-            let end = self.load_context(types::I64, context::WALK_LEN);
-            self.forget(effects);
-            self.walk(local, start, end, span, Walk::Ring(start), exit, body, |t, at| {
-                // The buffer may move while a round copies another ring.
-                let base = t.load_context(types::I64, context::WALK);
-                let offset = t.b.ins().ishl_imm_u(at, 2);
-                let address = t.b.ins().iadd(base, offset);
-                let flags = t.regions.members;
-                t.b.ins().load(types::I32, flags, address, 0)
-            })?;
-            self.continue_in(exit);
-            self.store_context(start, context::WALK_LEN);
-            return Ok(());
-        }
-        let bounds = self.bounds(v, ring.old);
-        let bytes = self.bytes_of(bounds.len);
-        let end = self.b.ins().iadd(bounds.start, bytes);
-        self.forget(effects);
-        let flags = if ring.old { self.regions.old } else { self.regions.slots };
-        let old = ring.old;
-        self.walk(local, bounds.start, end, span, Walk::Nothing, exit, body, |t, at| {
-            let q = t.b.ins().load(types::I32, flags, at, 0);
-            let at = t.b.ins().isub(at, bounds.start);
-            let found = Found { start: bounds.start, bytes, at, found: None };
-            t.known.learn(Key::Find { x: q, v, old }, Fact::Found(found));
-            q
-        })?;
-        self.continue_in(exit);
-        Ok(())
-    }
-
-    /// Walks from `first` to `end`, addresses of vertices or, for copied rings, numbers. `load` gives the vertex.
-    #[expect(clippy::too_many_arguments, reason = "the one loop of all walks")]
-    fn walk(
-        &mut self,
-        local: LocalId,
-        first: Value,
-        end: Value,
-        span: Span,
-        walk: Walk,
-        exit: Block,
-        body: &'p [Stmt],
-        load: impl FnOnce(&mut Self, Value) -> Value,
-    ) -> Translated<()> {
-        let stride = if matches!(walk, Walk::Ring(_)) { 1 } else { 4 };
-        let (round, at) = self.block_with(&[types::I64]);
-        let at = at[0];
-        let next = self.b.create_block();
-        let empty = self.b.ins().icmp(IntCC::Equal, first, end);
-        self.b.ins().brif(empty, exit, &[], round, &[first.into()]);
-        self.b.switch_to_block(round);
-        self.known.enter();
-        let v = load(self, at);
-        let hole = self.b.ins().icmp_imm_s(IntCC::Equal, v, 0);
-        self.leave_if(hole, next);
-        if self.mutated(Mutation::LoopsSkipTheSecond) {
-            let second = self.b.ins().iadd_imm_s(first, stride);
-            let skip = self.b.ins().icmp(IntCC::Equal, at, second);
-            self.leave_if(skip, next);
-        }
-        self.known.learn(Key::NotNull(v), Fact::Holds);
-        self.poll(span);
-        self.define_local(local, Val::One(v))?;
-        self.frame_mut()?.loops.push(Loop { next, exit, walk });
-        let goes_on = self.block(body)?;
-        self.frame_mut()?.loops.pop();
-        if goes_on {
-            self.b.ins().jump(next, &[]);
-        }
-        self.known.leave();
-        self.continue_in(next);
-        let after = self.b.ins().iadd_imm_s(at, stride);
-        let last = self.b.ins().icmp(IntCC::Equal, after, end);
-        self.b.ins().brif(last, exit, &[], round, &[after.into()]);
-        self.b.seal_block(round);
-        Ok(())
-    }
-
     /// `return`: gives back what open loops hold, and leaves the function or the code that stands in for it.
     fn leave(&mut self, value: Option<&'p Expr>) -> Translated<bool> {
         let value = match value {
@@ -403,39 +206,6 @@ impl<'p> Translator<'_, 'p> {
         Ok(false)
     }
 
-    /// `add`: pushes in line where the vertex is larger than all members and there is room.
-    fn add(&mut self, v: Value, set: Value) {
-        let sets = self.load_context(types::I64, context::SETS);
-        let index = self.b.ins().uextend(types::I64, set);
-        let offset = self.b.ins().imul_imm_s(index, context::SET_SIZE);
-        let set_address = self.b.ins().iadd(sets, offset);
-        let flags = self.regions.sets;
-        let len = self.b.ins().load(types::I64, flags, set_address, context::SET_LEN);
-        let capacity = self.b.ins().load(types::I64, flags, set_address, context::SET_CAPACITY);
-        let last = self.b.ins().load(types::I64, flags, set_address, context::SET_LAST);
-        let wide = self.b.ins().uextend(types::I64, v);
-        let above = self.b.ins().icmp(IntCC::UnsignedGreaterThan, wide, last);
-        let room = self.b.ins().icmp(IntCC::UnsignedLessThan, len, capacity);
-        let push = self.b.ins().band(above, room);
-        let [fast, slow, done] = [(); 3].map(|()| self.b.create_block());
-        self.b.set_cold_block(slow);
-        self.b.ins().brif(push, fast, &[], slow, &[]);
-        self.continue_in(fast);
-        let order = self.b.ins().load(types::I64, flags, set_address, context::SET_ORDER);
-        let bytes = self.b.ins().ishl_imm_u(len, 2);
-        let place = self.b.ins().iadd(order, bytes);
-        let members = self.regions.members;
-        self.b.ins().store(members, v, place, 0);
-        let len = self.b.ins().iadd_imm_s(len, 1);
-        self.b.ins().store(flags, len, set_address, context::SET_LEN);
-        self.b.ins().store(flags, wide, set_address, context::SET_LAST);
-        self.b.ins().jump(done, &[]);
-        self.continue_in(slow);
-        self.call_or_fail(Symbol::SetAdd, &[set, v]);
-        self.b.ins().jump(done, &[]);
-        self.continue_in(done);
-    }
-
     fn print(&mut self, items: &'p [PrintItem], span: Span) -> Translated<()> {
         self.call(Symbol::PrintBegin, &[]);
         for item in items {
@@ -473,45 +243,6 @@ impl<'p> Translator<'_, 'p> {
         Ok(())
     }
 
-    /// Index of the set that an expression of type mesh names, and how many sets to keep when it is no longer needed.
-    pub(super) fn set(&mut self, e: &'p Expr) -> Translated<(Value, Option<Value>)> {
-        if let ExprKind::Local(local) = e.kind {
-            return Ok((self.set_of(local)?, None));
-        }
-        let mark = self.load_context(types::I64, context::SET_COUNT);
-        let index = match &e.kind {
-            ExprKind::Conditional(condition, a, b) => {
-                let holds = self.condition(condition)?;
-                let [yes, no] = [(); 2].map(|()| self.b.create_block());
-                let (done, index) = self.block_with(&[types::I32]);
-                self.b.ins().brif(holds, yes, &[], no, &[]);
-                for (block, arm) in [(yes, a), (no, b)] {
-                    self.continue_in(block);
-                    self.known.enter();
-                    let (arm, _) = self.set(arm)?;
-                    self.known.leave();
-                    self.jump_with(done, &[arm]);
-                }
-                self.continue_in(done);
-                index[0]
-            }
-            ExprKind::Call(function, arguments) => {
-                self.call_function(*function, arguments, e.span)?;
-                let index = self.call(Symbol::SetTake, &[]).ok_or_else(wrong_type)?;
-                self.fail_if_no_set(index);
-                index
-            }
-            _ => return Err(wrong_type()),
-        };
-        Ok((index, Some(mark)))
-    }
-
-    pub(super) fn drop_sets(&mut self, mark: Option<Value>) {
-        if let Some(mark) = mark {
-            self.call(Symbol::SetDrop, &[mark]);
-        }
-    }
-
     /// Whether a variable is declared as one whose address is known.
     pub(super) fn address_of(&self, local: LocalId) -> Translated<Storage> {
         self.storage(local)
@@ -536,17 +267,4 @@ fn is_quiet(s: &Stmt) -> bool {
         }
         _ => false,
     }
-}
-
-/// Whether a condition is cheap to have twice.
-fn is_short(e: &Expr) -> bool {
-    let mut size = 0;
-    let mut calls = false;
-    each_in(e, &mut |node| {
-        size += 1;
-        if let Node::Expr(e) = node {
-            calls |= matches!(e.kind, ExprKind::Call(..));
-        }
-    });
-    size <= 16 && !calls
 }

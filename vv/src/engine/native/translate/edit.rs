@@ -1,0 +1,330 @@
+//! Edits of rings.
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{
+    Block, ConstantData, Endianness, InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Value, types,
+};
+
+use super::known::{Bounds, Key};
+use super::{Symbol, Translated, Translator};
+use crate::engine::native::Mutation;
+use crate::engine::native::context;
+use crate::ir::{Expr, Item, Side};
+use crate::mesh::FRESH_CAPACITY;
+
+/// Rings made of more items than this are left to the runtime.
+const MAKE_LIMIT: usize = 12;
+
+/// Where code that edits in line goes: to the runtime, with nothing done, or on, with all done.
+#[derive(Debug, Clone, Copy)]
+struct Ways {
+    slow: Block,
+    done: Block,
+}
+
+impl<'p> Translator<'_, 'p> {
+    /// What is put into a ring: `None` where the word `null` is written.
+    fn put(&mut self, item: &'p Item) -> Translated<Option<Value>> {
+        Ok(match item {
+            Item::Gap(_) => None,
+            Item::Vertex(e) => Some(self.vertex(e)?),
+        })
+    }
+
+    pub(super) fn make(&mut self, items: &'p [Item], of: &'p Expr) -> Translated<()> {
+        let mut list = Vec::with_capacity(items.len());
+        for item in items {
+            list.push(self.put(item)?);
+        }
+        if self.mutated(Mutation::MakesReversed) {
+            list.reverse();
+        }
+        let v = self.vertex_not_null(of)?;
+        let done = self.b.create_block();
+        let slow = self.b.create_block();
+        self.b.set_cold_block(slow);
+        let vertices: Option<Vec<Value>> = list.iter().copied().collect();
+        match vertices {
+            Some(vertices) if vertices.len() <= MAKE_LIMIT => {
+                self.make_in_place(&vertices, v, slow);
+                self.b.ins().jump(done, &[]);
+            }
+            _ => {
+                self.b.ins().jump(slow, &[]);
+            }
+        }
+        self.continue_in(slow);
+        let n = u32::try_from(list.len()).map_err(|_| super::wrong_type())?;
+        let slot = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * n.max(1), 2));
+        for (i, x) in list.into_iter().enumerate() {
+            let x = self.or_null(x);
+            self.b.ins().stack_store(types::I64, x, slot, 4 * i as i32);
+        }
+        let address = self.b.ins().stack_addr(types::I64, slot, 0);
+        let n = self.int32(n);
+        self.call_or_fail(Symbol::Make, &[v, address, n]);
+        self.b.ins().jump(done, &[]);
+        self.continue_in(done);
+        self.known.forget_rings(false);
+        Ok(())
+    }
+
+    /// Makes a ring of vertices, or goes to `slow` with nothing done.
+    fn make_in_place(&mut self, items: &[Value], v: Value, slow: Block) {
+        let k = items.len();
+        let mut bad = self.load_context(types::I64, context::HAS_EDGE_VALUES);
+        bad = self.b.ins().ireduce(types::I8, bad);
+        for (i, &x) in items.iter().enumerate() {
+            if !self.known.holds(Key::NotNull(x)) {
+                let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
+                bad = self.b.ins().bor(bad, null);
+            }
+            for &y in items[..i].iter().chain(std::iter::once(&v)) {
+                let same = self.b.ins().icmp(IntCC::Equal, x, y);
+                bad = self.b.ins().bor(bad, same);
+            }
+        }
+        self.leave_if(bad, slow);
+        let head = self.head(v, false);
+        let heads = self.regions.heads;
+        let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+        let offset = self.b.ins().load(types::I32, heads, head, context::HEAD_OFFSET);
+        let (store, at) = self.block_with(&[types::I32]);
+        let fresh = self.b.create_block();
+        let fits = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThanOrEqual, capacity, k as i64);
+        self.b.ins().brif(fits, store, &[offset.into()], fresh, &[]);
+        self.continue_in(fresh);
+        self.leave_if(capacity, slow);
+        let room = (k as i64).max(i64::from(FRESH_CAPACITY));
+        let used = self.load_context(types::I64, context::SLOT_LEN);
+        let end = self.b.ins().iadd_imm_s(used, room);
+        let limit = self.load_context(types::I64, context::SLOT_CAPACITY);
+        let full = self.b.ins().icmp(IntCC::UnsignedGreaterThan, end, limit);
+        self.leave_if(full, slow);
+        self.store_context(end, context::SLOT_LEN);
+        let offset = self.b.ins().ireduce(types::I32, used);
+        let capacity = self.b.ins().iconst(types::I32, room);
+        self.b.ins().store(heads, offset, head, context::HEAD_OFFSET);
+        self.b.ins().store(heads, capacity, head, context::HEAD_CAPACITY);
+        // The runtime takes all slots in use for written.
+        let start = self.slot_address(offset, false);
+        let slots = self.regions.slots;
+        let zero = self.int32(0);
+        for i in k as i64..room {
+            self.b.ins().store(slots, zero, start, 4 * i as i32);
+        }
+        self.jump_with(store, &[offset]);
+        self.continue_in(store);
+        let start = self.slot_address(at[0], false);
+        for (i, &x) in items.iter().enumerate() {
+            self.b.ins().store(slots, x, start, 4 * i as i32);
+        }
+        let len = self.int32(k as u32);
+        self.b.ins().store(heads, len, head, context::HEAD_LEN);
+    }
+
+    pub(super) fn replace(&mut self, item: &'p Item, with: &'p Item, ring: &'p Expr) -> Translated<()> {
+        let a = self.sought(item)?;
+        let x = self.put(with)?;
+        let v = self.vertex_not_null(ring)?;
+        let operands = [self.or_null(a), self.or_null(x), v];
+        self.edit(Symbol::Replace, &operands, |t, ways| {
+            if let (Some(a), Some(x)) = (a, x) {
+                t.replace_in_place(a, x, v, ways);
+            } else {
+                t.b.ins().jump(ways.slow, &[]);
+            }
+        });
+        Ok(())
+    }
+
+    /// Puts a vertex in the place of another.
+    fn replace_in_place(&mut self, a: Value, x: Value, v: Value, Ways { slow, done }: Ways) {
+        let Bounds { start, len } = self.bounds(v, false);
+        self.by_width(len, 0, slow, |t, width| {
+            let lanes = t.lanes(start, width, false);
+            let here = t.matches(&lanes, a, len);
+            let there = t.matches(&lanes, x, len);
+            let next = t.b.create_block();
+            t.b.ins().brif(here, next, &[], done, &[]);
+            t.continue_in(next);
+            let bad = t.may_not_enter(x, there, v);
+            t.leave_if(bad, slow);
+            let index = t.b.ins().ctz(here);
+            let at = t.bytes_of(index);
+            let address = t.b.ins().iadd(start, at);
+            let slots = t.regions.slots;
+            if !t.mutated(Mutation::ReplacesNothing) {
+                t.b.ins().store(slots, x, address, 0);
+            }
+            t.b.ins().jump(done, &[]);
+        });
+    }
+
+    /// Not zero where `x` is null, stands in the ring already (bits `there`), or is `v` itself.
+    fn may_not_enter(&mut self, x: Value, there: Value, v: Value) -> Value {
+        let twice = self.b.ins().icmp_imm_s(IntCC::NotEqual, there, 0);
+        let itself = self.b.ins().icmp(IntCC::Equal, x, v);
+        let bad = self.b.ins().bor(twice, itself);
+        if self.known.holds(Key::NotNull(x)) {
+            return bad;
+        }
+        let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
+        self.b.ins().bor(bad, null)
+    }
+
+    pub(super) fn splice(&mut self, item: &'p Item, side: Side, anchor: &'p Item, ring: &'p Expr) -> Translated<()> {
+        let x = self.put(item)?;
+        let a = self.sought(anchor)?;
+        let v = self.vertex_not_null(ring)?;
+        let before = self.int32(u32::from(side == Side::Before));
+        let operands = [self.or_null(x), self.or_null(a), v, before];
+        self.edit(Symbol::Splice, &operands, |t, ways| {
+            if let (Some(x), Some(a)) = (x, a) {
+                t.splice_in_place(x, side, a, v, ways);
+            } else {
+                t.b.ins().jump(ways.slow, &[]);
+            }
+        });
+        Ok(())
+    }
+
+    /// Splices a vertex into a ring without gaps that has room.
+    fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, Ways { slow, done }: Ways) {
+        let Bounds { start, len } = self.bounds(v, false);
+        self.by_width(len, 1, slow, |t, width| {
+            let lanes = t.lanes(start, width, false);
+            let here = t.matches(&lanes, a, len);
+            let there = t.matches(&lanes, x, len);
+            let next = t.b.create_block();
+            t.b.ins().brif(here, next, &[], done, &[]);
+            t.continue_in(next);
+            let head = t.head(v, false);
+            let heads = t.regions.heads;
+            let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+            let bad = t.may_not_enter(x, there, v);
+            let full = t.b.ins().icmp(IntCC::Equal, capacity, len);
+            let bad = t.b.ins().bor(bad, full);
+            let bad = t.or_gap_or_edge_values(bad, v);
+            t.leave_if(bad, slow);
+            let index = t.b.ins().ctz(here);
+            let after = (side == Side::After) != t.mutated(Mutation::SplicesOnTheOtherSide);
+            let at = match if after { Side::After } else { Side::Before } {
+                Side::After => t.b.ins().iadd_imm_s(index, 1),
+                Side::Before => t.b.ins().select(index, index, len),
+            };
+            // Lanes behind `at` take what stands before them, `at` takes x.
+            let mut shifted = vec![t.shift_lanes_up(lanes[0])];
+            let before = t.b.ins().iadd_imm_s(start, 12);
+            shifted.extend(t.lanes(before, width - 4, false));
+            let end = t.b.ins().splat(types::I32X4, len);
+            let place = t.b.ins().splat(types::I32X4, at);
+            let new = t.b.ins().splat(types::I32X4, x);
+            for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
+                let numbers = t.lane_numbers(4 * k as u32);
+                let behind = t.b.ins().icmp(IntCC::SignedGreaterThan, numbers, place);
+                let within = t.b.ins().icmp(IntCC::SignedLessThanOrEqual, numbers, end);
+                let moved = t.b.ins().band(behind, within);
+                let result = t.b.ins().bitselect(moved, shifted, lane);
+                let here = t.b.ins().icmp(IntCC::Equal, numbers, place);
+                let result = t.b.ins().bitselect(here, new, result);
+                // Lanes behind the ring get back what they hold, for it is another's.
+                let flags = t.unaligned(false);
+                t.b.ins().store(flags, result, start, 16 * k as i32);
+            }
+            let len = t.b.ins().iadd_imm_s(len, 1);
+            t.b.ins().store(heads, len, head, context::HEAD_LEN);
+            t.b.ins().jump(done, &[]);
+        });
+    }
+
+    fn or_gap_or_edge_values(&mut self, bad: Value, v: Value) -> Value {
+        let gap = self.has_gap(v, false);
+        let bad = self.b.ins().bor(bad, gap);
+        let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
+        let edge_values = self.b.ins().ireduce(types::I8, edge_values);
+        self.b.ins().bor(bad, edge_values)
+    }
+
+    /// `first`, `first + 1`, …
+    fn lane_numbers(&mut self, first: u32) -> Value {
+        let bytes: Vec<u8> = (first..first + 4).flat_map(u32::to_le_bytes).collect();
+        let constant = self.b.func.dfg.constants.insert(ConstantData::from(bytes));
+        self.b.ins().vconst(types::I32X4, constant)
+    }
+
+    /// Lane i becomes lane i − 1; the first is of no use.
+    fn shift_lanes_up(&mut self, lanes: Value) -> Value {
+        let bytes = self.b.ins().bitcast(types::I8X16, little_endian(), lanes);
+        let mask: Vec<u8> = [0, 1, 2, 3].into_iter().chain(0..12).collect();
+        let mask = self.b.func.dfg.immediates.push(ConstantData::from(mask));
+        let shifted = self.b.ins().shuffle(bytes, bytes, mask);
+        self.b.ins().bitcast(types::I32X4, little_endian(), shifted)
+    }
+
+    pub(super) fn erase(&mut self, item: &'p Item, from: &'p Expr) -> Translated<()> {
+        let x = self.sought(item)?;
+        let v = self.vertex_not_null(from)?;
+        let operands = [self.or_null(x), v];
+        self.edit(Symbol::Erase, &operands, |t, ways| match x {
+            Some(x) => t.erase_in_place(x, v, ways),
+            None => {
+                t.b.ins().jump(ways.slow, &[]);
+            }
+        });
+        Ok(())
+    }
+
+    /// Takes a vertex out of a ring without gaps.
+    fn erase_in_place(&mut self, x: Value, v: Value, Ways { slow, done }: Ways) {
+        let Bounds { start, len } = self.bounds(v, false);
+        self.by_width(len, 0, slow, |t, width| {
+            let lanes = t.lanes(start, width, false);
+            let here = t.matches(&lanes, x, len);
+            let next = t.b.create_block();
+            t.b.ins().brif(here, next, &[], done, &[]);
+            t.continue_in(next);
+            let zero = t.b.ins().iconst(types::I8, 0);
+            let bad = t.or_gap_or_edge_values(zero, v);
+            t.leave_if(bad, slow);
+            let index = t.b.ins().ctz(here);
+            // Lanes from `index` on take what stands behind them; those behind the ring get back what they hold.
+            let behind = t.b.ins().iadd_imm_s(start, 4);
+            let shifted = t.lanes(behind, width, false);
+            let len = t.b.ins().iadd_imm_s(len, -1);
+            let place = t.b.ins().splat(types::I32X4, index);
+            let end = t.b.ins().splat(types::I32X4, len);
+            for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
+                let numbers = t.lane_numbers(4 * k as u32);
+                let from = t.b.ins().icmp(IntCC::SignedGreaterThanOrEqual, numbers, place);
+                let within = t.b.ins().icmp(IntCC::SignedLessThan, numbers, end);
+                let moved = t.b.ins().band(from, within);
+                let result = t.b.ins().bitselect(moved, shifted, lane);
+                let flags = t.unaligned(false);
+                t.b.ins().store(flags, result, start, 16 * k as i32);
+            }
+            let head = t.head(v, false);
+            let heads = t.regions.heads;
+            if !t.mutated(Mutation::ErasesNothing) {
+                t.b.ins().store(heads, len, head, context::HEAD_LEN);
+            }
+            t.b.ins().jump(done, &[]);
+        });
+    }
+
+    /// Edits a ring in line where `in_line` finds it can, else in the runtime.
+    fn edit(&mut self, symbol: Symbol, operands: &[Value], in_line: impl FnOnce(&mut Self, Ways)) {
+        let ways = Ways { slow: self.b.create_block(), done: self.b.create_block() };
+        self.b.set_cold_block(ways.slow);
+        in_line(self, ways);
+        self.continue_in(ways.slow);
+        self.call_or_fail(symbol, operands);
+        self.b.ins().jump(ways.done, &[]);
+        self.continue_in(ways.done);
+        self.known.forget_rings(false);
+    }
+}
+
+fn little_endian() -> MemFlagsData {
+    MemFlagsData::new().with_endianness(Endianness::Little)
+}

@@ -1,0 +1,116 @@
+//! What all translation is made of: blocks, calls of the runtime, places where a run may end.
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{Block, BlockArg, InstBuilder, MemFlagsData, Type as ClifType, Value, types};
+use cranelift_module::Module;
+
+use super::{Site, Symbol, Translator};
+use crate::engine::native::context::{self, status};
+use crate::source::Span;
+
+impl Translator<'_, '_> {
+    /// Goes on in a new block unless `bad` holds, which fails.
+    pub(super) fn fail_if(&mut self, bad: Value) {
+        let fail = self.fail;
+        self.leave_if(bad, fail);
+    }
+
+    pub(super) fn leave_if(&mut self, bad: Value, to: Block) {
+        let next = self.b.create_block();
+        self.b.ins().brif(bad, to, &[], next, &[]);
+        self.b.switch_to_block(next);
+        self.b.seal_block(next);
+    }
+
+    /// Calls a runtime function, whose first operand is the context.
+    pub(super) fn call(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
+        let mut all = vec![self.context];
+        all.extend_from_slice(operands);
+        self.call_with(symbol, &all)
+    }
+
+    pub(super) fn call_with(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
+        let function = match self.symbol_refs.get(&symbol) {
+            Some(&f) => f,
+            None => {
+                let id = self.unit.symbols.get(&symbol).copied()?;
+                let f = self.module.declare_func_in_func(id, self.b.func);
+                self.symbol_refs.insert(symbol, f);
+                f
+            }
+        };
+        let call = self.b.ins().call(function, operands);
+        self.b.inst_results(call).first().copied()
+    }
+
+    /// Calls a runtime function that returns a status, and fails where that is not zero.
+    pub(super) fn call_or_fail(&mut self, symbol: Symbol, operands: &[Value]) {
+        if let Some(status) = self.call(symbol, operands) {
+            self.fail_if(status);
+        }
+    }
+
+    pub(super) fn new_set(&mut self) -> Value {
+        match self.call(Symbol::SetNew, &[]) {
+            Some(index) => {
+                self.fail_if_no_set(index);
+                index
+            }
+            None => self.int32(0),
+        }
+    }
+
+    pub(super) fn fail_if_no_set(&mut self, index: Value) {
+        let none = self.b.ins().icmp_imm_s(IntCC::Equal, index, -1);
+        self.fail_if(none);
+    }
+
+    /// A place where the code may be stopped.
+    pub(super) fn site(&mut self, span: Span) -> u32 {
+        let calls = self.frames.iter().rev().filter_map(|f| Some((f.function.name.clone(), f.call?))).collect();
+        self.unit.sites.push(Site { span, function: self.name.clone(), calls });
+        self.unit.sites.len() as u32 - 1
+    }
+
+    /// Asks whether the run shall stop.
+    pub(super) fn poll(&mut self, span: Span) {
+        let flag = self.load_context(types::I64, context::STOP);
+        // No alias region: another thread writes it.
+        let stop = self.b.ins().load(types::I8, MemFlagsData::trusted(), flag, 0);
+        let stopped = self.b.create_block();
+        self.b.set_cold_block(stopped);
+        let next = self.b.create_block();
+        self.b.ins().brif(stop, stopped, &[], next, &[]);
+        self.b.switch_to_block(stopped);
+        self.b.seal_block(stopped);
+        self.leave_with(status::STOPPED, span);
+        self.b.switch_to_block(next);
+        self.b.seal_block(next);
+    }
+
+    /// Leaves the function with a status that has a place.
+    pub(super) fn leave_with(&mut self, status: u32, span: Span) {
+        let site = self.site(span);
+        let site = self.b.ins().iconst(types::I64, i64::from(site));
+        self.store_context(site, context::SITE);
+        let status = self.int32(status);
+        self.b.ins().return_(&[status]);
+    }
+
+    /// A block that takes values of these types.
+    pub(super) fn block_with(&mut self, types: &[ClifType]) -> (Block, Vec<Value>) {
+        let block = self.b.create_block();
+        let values = types.iter().map(|&t| self.b.append_block_param(block, t)).collect();
+        (block, values)
+    }
+
+    pub(super) fn jump_with(&mut self, block: Block, values: &[Value]) {
+        let values: Vec<BlockArg> = values.iter().map(|&v| BlockArg::Value(v)).collect();
+        self.b.ins().jump(block, &values);
+    }
+
+    pub(super) fn continue_in(&mut self, block: Block) {
+        self.b.switch_to_block(block);
+        self.b.seal_block(block);
+    }
+}
