@@ -1,0 +1,140 @@
+// What the programs around the libraries share: a mesh as lists of points and of faces, OFF files, the command line and
+// the report.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+using Point = std::array<double, 3>;
+
+[[noreturn]] inline void fail(const std::string& message) {
+  std::fprintf(stderr, "error: %s\n", message.c_str());
+  std::exit(1);
+}
+
+// Points, and the corners of all faces, one face after the other, counter-clockwise.
+struct Lists {
+  std::vector<Point> points;
+  std::vector<int> corners;
+  std::vector<int> valences;  // of the faces
+};
+
+inline std::string read(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail("cannot read " + path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// OFF without colours and comments.
+inline Lists read_off(const std::string& path) {
+  std::string text = read(path);
+  const char *at = text.data(), *end = at + text.size();
+  if (text.rfind("OFF", 0) != 0) fail(path + " is no OFF file");
+  at += 3;
+  auto number = [&](auto& x) {
+    while (at < end && std::isspace(static_cast<unsigned char>(*at))) ++at;
+    auto [next, error] = std::from_chars(at, end, x);
+    if (error != std::errc()) fail(path + " is damaged");
+    at = next;
+  };
+  int vertices, faces, edges;
+  number(vertices), number(faces), number(edges);
+  Lists lists;
+  lists.points.resize(vertices);
+  lists.valences.resize(faces);
+  lists.corners.reserve(4 * static_cast<size_t>(faces));
+  for (Point& p : lists.points) number(p[0]), number(p[1]), number(p[2]);
+  for (int& valence : lists.valences) {
+    number(valence);
+    for (int i = 0; i < valence; ++i) {
+      int corner;
+      number(corner);
+      if (corner < 0 || corner >= vertices) fail(path + " is damaged");
+      lists.corners.push_back(corner);
+    }
+  }
+  return lists;
+}
+
+// 17 digits tell a double exactly.
+inline void write_off(const Lists& lists, const std::string& path) {
+  FILE* out = std::fopen(path.c_str(), "w");
+  if (!out) fail("cannot write " + path);
+  std::fprintf(out, "OFF\n%zu %zu 0\n", lists.points.size(), lists.valences.size());
+  for (const Point& p : lists.points) std::fprintf(out, "%.17g %.17g %.17g\n", p[0], p[1], p[2]);
+  size_t at = 0;
+  for (int valence : lists.valences) {
+    std::fprintf(out, "%d", valence);
+    for (int i = 0; i < valence; ++i) std::fprintf(out, " %d", lists.corners[at++]);
+    std::fprintf(out, "\n");
+  }
+  if (std::fclose(out) != 0) fail("cannot write " + path);
+}
+
+// Counts and two numbers that hardly two different surfaces share: the enclosed volume and the sum of the squares of all
+// coordinates. Returned as JSON without braces.
+inline std::string sums(const Lists& lists) {
+  double squares = 0, volume = 0;
+  for (const Point& p : lists.points) squares += p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+  size_t at = 0;
+  for (int valence : lists.valences) {
+    const Point& a = lists.points[lists.corners[at]];
+    for (int i = 2; i < valence; ++i) {
+      const Point &b = lists.points[lists.corners[at + i - 1]], &c = lists.points[lists.corners[at + i]];
+      volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    at += valence;
+  }
+  char text[200];
+  std::snprintf(text, sizeof text, "\"vertices\": %zu, \"faces\": %zu, \"volume\": %.17g, \"squares\": %.17g",
+                lists.points.size(), lists.valences.size(), volume / 6, squares);
+  return text;
+}
+
+// `program SCHEME IN.off [--name value]…`
+struct Arguments {
+  std::string scheme, input;
+  std::map<std::string, std::string> options;
+
+  Arguments(int count, char** values) {
+    if (count < 3 || count % 2 == 0) fail("usage: " + std::string(values[0]) + " SCHEME IN.off [--steps N] [--output OUT.off] …");
+    scheme = values[1], input = values[2];
+    for (int i = 3; i < count; i += 2) options[values[i]] = values[i + 1];
+  }
+  std::string option(const std::string& name, const std::string& otherwise) const {
+    auto found = options.find(name);
+    return found == options.end() ? otherwise : found->second;
+  }
+  int steps() const { return std::stoi(option("--steps", "1")); }
+};
+
+// The time that `work` takes.
+template <class Work> double seconds(Work work) {
+  auto began = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+// Writes the time and, if asked to, sums and the mesh: `lists` makes it.
+template <class MakeLists> int report(const Arguments& arguments, double time, size_t faces, MakeLists make_lists) {
+  std::printf("{\"seconds\": %.9f, \"output_faces\": %zu", time, faces);
+  std::string output = arguments.option("--output", ""), check = arguments.option("--check", "no");
+  if (!output.empty() || check == "yes") {
+    Lists lists = make_lists();
+    if (check == "yes") std::printf(", %s", sums(lists).c_str());
+    if (!output.empty()) write_off(lists, output);
+  }
+  std::printf("}\n");
+  return 0;
+}
