@@ -37,9 +37,8 @@ pub(super) struct Context {
     pub(super) old_prefix: u64,
     pub(super) sets: *mut RawSet,
     pub(super) set_count: u64,
-    /// Rings being walked while they are edited, one after the other, in `walk_len` words.
-    pub(super) walk: *const u32,
-    pub(super) walk_len: u64,
+    /// Copies of rings that loops walk while they edit them.
+    pub(super) walk_count: u64,
     /// Where compiled code was stopped, an index of its sites.
     pub(super) site: u64,
     /// Operands and results of runtime functions, results of compiled ones.
@@ -162,8 +161,7 @@ offsets! {
     OLD_PREFIX old_prefix
     SETS sets
     SET_COUNT set_count
-    WALK walk
-    WALK_LEN walk_len
+    WALK_COUNT walk_count
     SITE site
     VALUE value
 }

@@ -133,8 +133,8 @@ pub(super) struct Run<'a> {
     returned: Option<Set>,
     /// Sets that loops walk.
     walked: Vec<VertexSet>,
-    /// Rings that loops walk while they edit them.
-    walk: Vec<Vertex>,
+    /// Copies of rings that loops walk while they edit them, and buffers for more.
+    walks: Vec<Vec<Vertex>>,
     random: Random,
     lines: Vec<String>,
     printed: usize,
@@ -183,7 +183,7 @@ pub(super) fn run(
         raw_sets: Vec::new(),
         returned: None,
         walked: Vec::new(),
-        walk: Vec::new(),
+        walks: Vec::new(),
         random: Random::new(fixed.settings.seed, generation),
         lines: Vec::new(),
         printed: 0,

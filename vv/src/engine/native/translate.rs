@@ -181,7 +181,7 @@ enum Walk {
     Nothing,
     /// How many sets were walked before.
     Set(Value),
-    /// How long the buffer of rings was before.
+    /// How many copies of rings were walked before.
     Ring(Value),
 }
 

@@ -111,8 +111,6 @@ impl Run<'_> {
         // SAFETY: as in `enter`.
         let context = unsafe { &mut *self.context };
         context.vertex_capacity = capacity.min(max_vertices) as u64;
-        context.walk = self.walk.as_ptr().cast();
-        context.walk_len = self.walk.len() as u64;
         self.leave_sets();
     }
 
@@ -157,7 +155,8 @@ impl Run<'_> {
     pub(super) fn allows(&self, more: usize) -> bool {
         let sets: usize = self.sets.iter().map(|s| s.members.bytes()).sum();
         let walked: usize = self.walked.iter().map(VertexSet::bytes).sum();
-        let used = self.mesh.bytes() + self.old.bytes() + sets + walked + self.printed + 4 * self.walk.capacity();
+        let rings: usize = self.walks.iter().map(|ring| 4 * ring.capacity()).sum();
+        let used = self.mesh.bytes() + self.old.bytes() + sets + walked + rings + self.printed;
         used.saturating_add(more) <= self.fixed.settings.limits.max_bytes
     }
 

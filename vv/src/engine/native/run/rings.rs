@@ -1,7 +1,7 @@
 //! Rings and old values: what compiled code leaves to the runtime.
 
 use super::super::context::PADDING;
-use super::{Context, Run, guard, light, status, vertex};
+use super::{Context, Run, guard, light, status, value_words, vertex};
 use crate::mesh::{Mesh, Ring, Vertex};
 
 impl Run<'_> {
@@ -151,16 +151,24 @@ pub(super) extern "C" fn gaps(context: *mut Context, v: u32, old: u32) -> u32 {
     guard(context, 0, |run| Some(run.ring(vertex(v)?, old != 0).gaps() as u32))
 }
 
-/// Copies the neighbours of a vertex behind the rings being walked; the result is where they begin.
-pub(super) extern "C" fn walk(context: *mut Context, v: u32, old: u32) -> u64 {
-    guard(context, u64::MAX, |run| {
+/// Copies the neighbours of a vertex; where the copy begins and ends is in the words.
+pub(super) extern "C" fn walk(context: *mut Context, v: u32, old: u32) -> u32 {
+    guard(context, status::REPEAT, |run| {
         // SAFETY: the context is valid and compiled code waits.
-        let start = unsafe { (*run.context).walk_len } as usize;
-        run.walk.truncate(start);
+        let count = unsafe { &mut (*run.context).walk_count };
+        let depth = *count as usize;
+        *count += 1;
+        if run.walks.len() <= depth {
+            run.walks.push(Vec::new());
+        }
         let v = vertex(v)?;
         let ring = if old != 0 { run.old.ring(v) } else { run.mesh.ring(v) };
-        run.walk.extend(ring.vertices());
-        run.allows(0).then_some(start as u64)
+        let copy = run.walks.get_mut(depth)?;
+        copy.clear();
+        copy.extend(ring.vertices());
+        let bounds = copy.as_ptr_range();
+        value_words(run)[..2].copy_from_slice(&[bounds.start.addr() as u64, bounds.end.addr() as u64]);
+        run.allows(0).then_some(status::DONE)
     })
 }
 

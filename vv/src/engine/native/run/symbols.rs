@@ -60,7 +60,7 @@ runtime! {
     Splice = rings::splice, (I64, I32, I32, I32, I32) -> I32;
     Find = rings::find, (I64, I32, I32, I32) -> I32;
     Gaps = rings::gaps, (I64, I32, I32) -> I32;
-    Walk = rings::walk, (I64, I32, I32) -> I64;
+    Walk = rings::walk, (I64, I32, I32) -> I32;
     EdgeLoad = rings::edge_load, (I64, I32, I32, I32, I32) -> I32;
     EdgeStore = rings::edge_store, (I64, I32, I32, I32) -> I32;
     MeshLoad = edges::mesh_load, (I64, I32, I32) -> I32;

@@ -89,33 +89,24 @@ impl<'p> Translator<'_, 'p> {
         let heads = self.regions.heads;
         let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
         let offset = self.b.ins().load(types::I32, heads, head, context::HEAD_OFFSET);
-        let (store, at) = self.block_with(&[types::I32]);
+        let kept = self.slot_address(offset, false);
+        let (store, start) = self.block_with(&[types::I64]);
         let fresh = self.b.create_block();
         let fits = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThanOrEqual, capacity, k as i64);
-        self.b.ins().brif(fits, store, &[offset.into()], fresh, &[]);
+        self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
         self.continue_in(fresh);
         self.leave_if(capacity, slow);
         let room = (k as i64).max(i64::from(FRESH_CAPACITY));
-        let used = self.load_context(types::I64, context::SLOT_LEN);
-        let end = self.b.ins().iadd_imm_s(used, room);
-        let limit = self.load_context(types::I64, context::SLOT_CAPACITY);
-        let full = self.b.ins().icmp(IntCC::UnsignedGreaterThan, end, limit);
-        self.leave_if(full, slow);
-        self.store_context(end, context::SLOT_LEN);
-        let offset = self.b.ins().ireduce(types::I32, used);
         let capacity = self.b.ins().iconst(types::I32, room);
-        self.b.ins().store(heads, offset, head, context::HEAD_OFFSET);
-        self.b.ins().store(heads, capacity, head, context::HEAD_CAPACITY);
-        // The runtime takes all slots in use for written.
-        let start = self.slot_address(offset, false);
+        let taken = self.take_slots(head, capacity, slow);
         let slots = self.regions.slots;
         let zero = self.int32(0);
         for i in k as i64..room {
-            self.b.ins().store(slots, zero, start, 4 * i as i32);
+            self.b.ins().store(slots, zero, taken, 4 * i as i32);
         }
-        self.jump_with(store, &[offset]);
+        self.jump_with(store, &[taken]);
         self.continue_in(store);
-        let start = self.slot_address(at[0], false);
+        let start = start[0];
         for (i, &x) in items.iter().enumerate() {
             self.b.ins().store(slots, x, start, 4 * i as i32);
         }
@@ -189,7 +180,7 @@ impl<'p> Translator<'_, 'p> {
         Ok(())
     }
 
-    /// Splices a vertex into a ring without gaps that has room.
+    /// Splices a vertex into a ring without gaps, which moves to twice the room if it has none left.
     fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len } = self.bounds(v, false);
         self.by_width(len, 1, slow, |t, width| {
@@ -203,8 +194,6 @@ impl<'p> Translator<'_, 'p> {
             let heads = t.regions.heads;
             let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
             let bad = t.may_not_enter(x, there, v);
-            let full = t.b.ins().icmp(IntCC::Equal, capacity, len);
-            let bad = t.b.ins().bor(bad, full);
             let bad = t.or_gap_or_edge_values(bad, v);
             t.leave_if(bad, slow);
             let index = t.b.ins().ctz(here);
@@ -220,6 +209,7 @@ impl<'p> Translator<'_, 'p> {
             let end = t.b.ins().splat(types::I32X4, len);
             let place = t.b.ins().splat(types::I32X4, at);
             let new = t.b.ins().splat(types::I32X4, x);
+            let start = t.with_room(head, capacity, len, start, width, slow);
             for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
                 let numbers = t.lane_numbers(4 * k as u32);
                 let behind = t.b.ins().icmp(IntCC::SignedGreaterThan, numbers, place);
@@ -228,7 +218,7 @@ impl<'p> Translator<'_, 'p> {
                 let result = t.b.ins().bitselect(moved, shifted, lane);
                 let here = t.b.ins().icmp(IntCC::Equal, numbers, place);
                 let result = t.b.ins().bitselect(here, new, result);
-                // Lanes behind the ring get back what they hold, for it is another's.
+                // Lanes behind the ring get back what they hold, for it is another's; behind one that moved is nobody's.
                 let flags = t.unaligned(false);
                 t.b.ins().store(flags, result, start, 16 * k as i32);
             }
@@ -236,6 +226,48 @@ impl<'p> Translator<'_, 'p> {
             t.b.ins().store(heads, len, head, context::HEAD_LEN);
             t.b.ins().jump(done, &[]);
         });
+    }
+
+    /// Where a ring of at most `width` slots goes that becomes longer by one: it stays at `start` if there is room, else
+    /// it gets a fresh run of slots.
+    fn with_room(&mut self, head: Value, capacity: Value, len: Value, start: Value, width: i64, slow: Block) -> Value {
+        let fresh = self.b.create_block();
+        self.b.set_cold_block(fresh);
+        let (store, to) = self.block_with(&[types::I64]);
+        let full = self.b.ins().icmp(IntCC::Equal, capacity, len);
+        self.b.ins().brif(full, fresh, &[], store, &[start.into()]);
+        self.continue_in(fresh);
+        let twice = self.b.ins().ishl_imm_u(capacity, 1);
+        let least = self.int32(FRESH_CAPACITY);
+        let room = self.b.ins().umax(twice, least);
+        let start = self.take_slots(head, room, slow);
+        // The ring itself fills the first lanes.
+        let flags = self.unaligned(false);
+        let zero = self.int32(0);
+        let gaps = self.b.ins().splat(types::I32X4, zero);
+        for k in width / 4..width / 2 {
+            self.b.ins().store(flags, gaps, start, 16 * k as i32);
+        }
+        self.jump_with(store, &[start]);
+        self.continue_in(store);
+        to[0]
+    }
+
+    /// Gives a ring a fresh run of slots, which the caller writes all: the runtime takes slots in use for written. The
+    /// result is where it lies; up to [`context::PADDING`] slots behind it may be written too.
+    fn take_slots(&mut self, head: Value, room: Value, slow: Block) -> Value {
+        let used = self.load_context(types::I64, context::SLOT_LEN);
+        let wide = self.b.ins().uextend(types::I64, room);
+        let end = self.b.ins().iadd(used, wide);
+        let limit = self.load_context(types::I64, context::SLOT_CAPACITY);
+        let full = self.b.ins().icmp(IntCC::UnsignedGreaterThan, end, limit);
+        self.leave_if(full, slow);
+        self.store_context(end, context::SLOT_LEN);
+        let offset = self.b.ins().ireduce(types::I32, used);
+        let heads = self.regions.heads;
+        self.b.ins().store(heads, offset, head, context::HEAD_OFFSET);
+        self.b.ins().store(heads, room, head, context::HEAD_CAPACITY);
+        self.slot_address(offset, false)
     }
 
     fn or_gap_or_edge_values(&mut self, bad: Value, v: Value) -> Value {

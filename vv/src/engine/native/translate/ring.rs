@@ -12,7 +12,7 @@ use crate::ir::{Expr, Item, Ring};
 
 /// Rings up to these lengths are searched and edited in line, four slots at a time. A refinement that doubles valences
 /// before it halves them again meets the second.
-const WIDTHS: [i64; 2] = [8, 16];
+pub(super) const WIDTHS: [i64; 2] = [8, 16];
 
 impl<'p> Translator<'_, 'p> {
     /// The vertex whose ring is meant: not null, and with an old value if that is meant.

@@ -180,12 +180,12 @@ impl<'p> Translator<'_, 'p> {
         };
         let walks: Vec<Walk> = self.frame()?.loops.iter().map(|l| l.walk).collect();
         let sets = walks.iter().find_map(|w| if let Walk::Set(depth) = w { Some(*depth) } else { None });
-        let rings = walks.iter().find_map(|w| if let Walk::Ring(start) = w { Some(*start) } else { None });
+        let rings = walks.iter().find_map(|w| if let Walk::Ring(count) = w { Some(*count) } else { None });
         if let Some(depth) = sets {
             self.call(Symbol::SetWalkEnd, &[depth]);
         }
-        if let Some(start) = rings {
-            self.store_context(start, context::WALK_LEN);
+        if let Some(count) = rings {
+            self.store_context(count, context::WALK_COUNT);
         }
         let frame = self.frame()?;
         let (inlined, exit, result) = (frame.call.is_some(), frame.exit, frame.result.clone());

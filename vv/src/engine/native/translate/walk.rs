@@ -1,9 +1,10 @@
 //! Loops.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, InstBuilder, Value, types};
+use cranelift_codegen::ir::{Block, InstBuilder, StackSlotData, StackSlotKind, Value, types};
 
-use super::known::{Fact, Found, Key};
+use super::known::{Bounds, Fact, Found, Key};
+use super::ring::WIDTHS;
 use super::{Loop, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
@@ -116,22 +117,15 @@ impl<'p> Translator<'_, 'p> {
         let moves = if ring.old { effects.synchronizes } else { effects.edits };
         let exit = self.b.create_block();
         if moves {
-            let of_old = self.int32(u32::from(ring.old));
-            let start = self.call(Symbol::Walk, &[v, of_old]).ok_or_else(wrong_type)?;
-            let none = self.b.ins().icmp_imm_s(IntCC::Equal, start, -1);
-            self.fail_if(none);
-            let end = self.load_context(types::I64, context::WALK_LEN);
+            let count = self.load_context(types::I64, context::WALK_COUNT);
+            let [first, end] = self.copy_ring(v, ring.old);
             self.forget(effects);
-            self.walk(local, start, end, span, Walk::Ring(start), exit, body, |t, at| {
-                // The buffer may move while a round copies another ring.
-                let base = t.load_context(types::I64, context::WALK);
-                let offset = t.b.ins().ishl_imm_u(at, 2);
-                let address = t.b.ins().iadd(base, offset);
-                let flags = t.regions.members;
-                t.b.ins().load(types::I32, flags, address, 0)
+            let flags = self.regions.locals;
+            self.walk(local, first, end, span, Walk::Ring(count), exit, body, |t, at| {
+                t.b.ins().load(types::I32, flags, at, 0)
             })?;
             self.continue_in(exit);
-            self.store_context(start, context::WALK_LEN);
+            self.store_context(count, context::WALK_COUNT);
             return Ok(());
         }
         let bounds = self.bounds(v, ring.old);
@@ -151,7 +145,34 @@ impl<'p> Translator<'_, 'p> {
         Ok(())
     }
 
-    /// Walks from `first` to `end`, addresses of vertices or, for copied rings, numbers. `load` gives the vertex.
+    /// Copies a ring to where no edit reaches it: into the function's frame if it is short. From where to where it lies.
+    fn copy_ring(&mut self, v: Value, old: bool) -> [Value; 2] {
+        let Bounds { start, len } = self.bounds(v, old);
+        let longest = WIDTHS[WIDTHS.len() - 1] as u32;
+        let frame = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * longest, 4));
+        let copy = self.b.ins().stack_addr(types::I64, frame, 0);
+        let (ready, bounds) = self.block_with(&[types::I64; 2]);
+        let slow = self.b.create_block();
+        self.b.set_cold_block(slow);
+        let bytes = self.bytes_of(len);
+        let end = self.b.ins().iadd(copy, bytes);
+        self.by_width(len, 0, slow, |t, width| {
+            let flags = t.regions.locals;
+            for (k, lane) in t.lanes(start, width, old).into_iter().enumerate() {
+                t.b.ins().store(flags, lane, copy, 16 * k as i32);
+            }
+            t.jump_with(ready, &[copy, end]);
+        });
+        self.continue_in(slow);
+        let of_old = self.int32(u32::from(old));
+        self.call_or_fail(Symbol::Walk, &[v, of_old]);
+        let [first, end] = [0, 8].map(|k| self.load_context(types::I64, context::VALUE + k));
+        self.jump_with(ready, &[first, end]);
+        self.continue_in(ready);
+        [bounds[0], bounds[1]]
+    }
+
+    /// Walks from `first` to `end`, addresses of vertices or gaps. `load` gives the vertex.
     #[expect(clippy::too_many_arguments, reason = "the one loop of all walks")]
     fn walk(
         &mut self,
@@ -164,7 +185,6 @@ impl<'p> Translator<'_, 'p> {
         body: &'p [Stmt],
         load: impl FnOnce(&mut Self, Value) -> Value,
     ) -> Translated<()> {
-        let stride = if matches!(walk, Walk::Ring(_)) { 1 } else { 4 };
         let (round, at) = self.block_with(&[types::I64]);
         let at = at[0];
         let next = self.b.create_block();
@@ -176,7 +196,7 @@ impl<'p> Translator<'_, 'p> {
         let hole = self.b.ins().icmp_imm_s(IntCC::Equal, v, 0);
         self.leave_if(hole, next);
         if self.mutated(Mutation::LoopsSkipTheSecond) {
-            let second = self.b.ins().iadd_imm_s(first, stride);
+            let second = self.b.ins().iadd_imm_s(first, 4);
             let skip = self.b.ins().icmp(IntCC::Equal, at, second);
             self.leave_if(skip, next);
         }
@@ -191,7 +211,7 @@ impl<'p> Translator<'_, 'p> {
         }
         self.known.leave();
         self.continue_in(next);
-        let after = self.b.ins().iadd_imm_s(at, stride);
+        let after = self.b.ins().iadd_imm_s(at, 4);
         let last = self.b.ins().icmp(IntCC::Equal, after, end);
         self.b.ins().brif(last, exit, &[], round, &[after.into()]);
         self.b.seal_block(round);
