@@ -1,7 +1,11 @@
 //! Everything a user can ask for: what it is called, which keys mean it, when it makes sense.
 //!
-//! Menus, buttons, keys, panels and tests make commands; [`crate::session::Session::apply`] is the one place that carries
-//! them out. A new command is a variant here, a line in [`Command::describe`], and its effect there.
+//! Menus, palette, buttons, keys, panels and tests make commands; [`crate::session::Session::apply`] is the one place that
+//! carries them out. A new command is a variant here, a line in [`Command::describe`], a place in [`MENUS`], and its
+//! effect there.
+
+mod matching;
+mod menus;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,6 +18,9 @@ use crate::camera::Camera;
 use crate::document::MeshSource;
 use crate::scene::Style;
 use crate::session::{Purpose, Session};
+
+pub use matching::{Match, find};
+pub use menus::{MENUS, Menu, with_keys};
 
 /// A wish.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,6 +105,13 @@ pub enum Command {
     SetTheme(ThemeChoice),
     /// A panel on and off.
     Toggle(Panel),
+    /// The window without its frame, as large as the screen; and back.
+    FullScreen,
+
+    /// All commands, to be found by typing.
+    Palette,
+    /// All keys.
+    CheatSheet,
 }
 
 /// What to do with text that is not saved.
@@ -202,6 +216,13 @@ impl Command {
             Self::Toggle(Panel::Inspector) => {
                 ("Inspector panel", "show parameters, display and statistics", const { &[ctrl(Key::Num3)] })
             }
+            Self::FullScreen => ("Full screen", "fill the screen; again to leave", const { &[key(Key::F11)] }),
+            Self::Palette => {
+                ("Command palette…", "find any command by typing", const { &[ctrl_shift(Key::P), ctrl(Key::K)] })
+            }
+            Self::CheatSheet => {
+                ("Keys…", "all keys and what the mouse does", const { &[key(Key::H), key(Key::Questionmark)] })
+            }
             Self::Open(_)
             | Self::OpenExample(_)
             | Self::UseMesh(_)
@@ -249,41 +270,17 @@ impl Command {
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,
+            Self::FullScreen => session.full_screen,
             _ => return None,
         })
     }
-
-    /// The commands that keys mean.
-    pub const WITH_KEYS: &'static [Self] = &[
-        Self::NewProgram,
-        Self::Choose(Purpose::OpenMesh), // before Ctrl+O, which Ctrl+Shift+O contains
-        Self::Choose(Purpose::OpenProgram),
-        Self::Choose(Purpose::SaveProgram),
-        Self::Choose(Purpose::ExportMesh),
-        Self::Save,
-        Self::Quit,
-        Self::Run,
-        Self::Step,
-        Self::Back,
-        Self::Rewind,
-        Self::Play,
-        Self::Stop,
-        Self::Faces,
-        Self::Edges,
-        Self::Vertices,
-        Self::Smooth,
-        Self::Control,
-        Self::Fit,
-        Self::Toggle(Panel::Program),
-        Self::Toggle(Panel::Messages),
-        Self::Toggle(Panel::Inspector),
-    ];
 }
 
 /// Whether a key acts also while text is being typed.
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
-    shortcut.modifiers.command || matches!(shortcut.logical_key, Key::F5 | Key::Escape)
+    let function = matches!(shortcut.logical_key, Key::F1 | Key::F5 | Key::F8 | Key::F11 | Key::F12);
+    shortcut.modifiers.command || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
 }
 
 #[cfg(test)]
@@ -293,7 +290,7 @@ mod tests {
     #[test]
     fn no_two_commands_share_a_key() {
         let mut keys = Vec::new();
-        for command in Command::WITH_KEYS {
+        for command in with_keys() {
             let description = command.describe();
             assert!(!description.label.is_empty() && !description.tooltip.is_empty(), "{command:?}");
             for shortcut in description.shortcuts {

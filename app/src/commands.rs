@@ -2,6 +2,7 @@
 
 mod check;
 mod convert;
+mod fmt;
 mod info;
 mod input;
 mod open;
@@ -28,7 +29,7 @@ Exit codes:
   2  the command line is wrong
   3  a file could not be read or written
   4  a budget (vertices, memory, call depth) or the time is used up
-  5  the result differs from the reference
+  5  the result differs from the reference, or a program from its layout by `vv fmt`
   6  no renderer: no display for the window, no GPU or software driver for pictures";
 
 const EXAMPLES: &str = "\
@@ -37,6 +38,7 @@ Examples:
   vv bunny.obj loop.vv                        open it with a mesh and a program
   vv run loop.vv -i bunny.obj -n 2 -o out.obj -o out.png
   vv check *.vv
+  vv fmt --check *.vv
   vv mesh info bunny.obj
   vv mesh convert bunny.obj -o bunny.off
 
@@ -69,6 +71,11 @@ enum Command {
     ///
     /// Finds what `vv run` would find before it runs them. Says nothing about programs without fault.
     Check(check::Arguments),
+    /// Lay programs out the one way: indentation and spaces. Lines, comments and meaning stay.
+    ///
+    /// Replaces each file, whole or not at all, unless it is laid out so already; `-` goes from stdin to stdout. A program
+    /// that cannot be read without doubt is left as it is.
+    Fmt(fmt::Arguments),
     /// Look at mesh files and convert them.
     #[command(subcommand)]
     Mesh(MeshCommand),
@@ -130,7 +137,7 @@ enum Exit {
     File = 3,
     /// A budget or the time is used up.
     Budget = 4,
-    /// The result is not the reference.
+    /// The result is not the reference, a program not laid out.
     Different = 5,
     /// No display or no GPU.
     NoRenderer = 6,
@@ -144,6 +151,7 @@ pub fn main() -> ExitCode {
         None => open::open(&cli.files),
         Some(Command::Run(arguments)) => run::run(&arguments, began),
         Some(Command::Check(arguments)) => check::check(&arguments),
+        Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),
         Some(Command::Mesh(MeshCommand::Info(arguments))) => info::info(&arguments),
         Some(Command::Mesh(MeshCommand::Convert(arguments))) => convert::convert(&arguments),
     };

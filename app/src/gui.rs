@@ -14,12 +14,14 @@
 //! Panels read the [`Session`] and push [`Command`]s; only the session changes anything. A panel's own state (a cursor, a
 //! texture) stays in the panel.
 
+mod cheat_sheet;
 mod dialogs;
 mod editor;
 mod inspector;
 mod keys;
 mod menu;
 mod messages;
+mod palette;
 mod picture;
 mod theme;
 mod toolbar;
@@ -89,6 +91,9 @@ pub struct App {
     messages: messages::Messages,
     title: String,
     quitting: bool,
+    /// What was asked of the window manager last, and what it said last.
+    full_screen: bool,
+    was_full_screen: bool,
     /// What had the keys before a dialog opened.
     focus: Option<egui::Id>,
     /// Frames until they get them back, from the dialog's last one on.
@@ -117,6 +122,8 @@ impl App {
             messages: messages::Messages::default(),
             title: String::new(),
             quitting: false,
+            full_screen: false,
+            was_full_screen: false,
             focus: None,
             asked: 0,
         })
@@ -235,6 +242,16 @@ impl eframe::App for App {
         });
         self.close(ctx);
         self.set_title(ctx);
+        let full_screen = ctx.input(|i| i.viewport().fullscreen).unwrap_or(false);
+        if self.full_screen != self.session.full_screen {
+            self.full_screen = self.session.full_screen;
+            ctx.send_viewport_cmd(egui::ViewportCommand::Fullscreen(self.full_screen));
+        } else if full_screen != self.was_full_screen {
+            // The window manager, too, may end it.
+            self.full_screen = full_screen;
+            self.session.full_screen = full_screen;
+        }
+        self.was_full_screen = full_screen;
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {

@@ -71,6 +71,18 @@ pub enum Dialog {
         /// As typed so far.
         path: String,
     },
+    /// Which command?
+    Palette {
+        /// As typed so far.
+        query: String,
+        /// Which of those that fit.
+        selected: usize,
+    },
+    /// All keys.
+    CheatSheet {
+        /// As typed so far.
+        query: String,
+    },
 }
 
 /// Why what is shown is not what is wanted.
@@ -121,6 +133,8 @@ pub struct Session {
     pub theme: ThemeChoice,
     /// Which panels are open.
     pub panels: Panels,
+    /// Whether the window fills the screen.
+    pub full_screen: bool,
     /// The question that is open. Its text field is edited in place.
     pub dialog: Option<Dialog>,
     /// A place of the program that the editor shall show; the editor takes it.
@@ -178,6 +192,7 @@ impl Session {
             document: welcome(mesh.is_none() && program.is_none()),
             theme: ThemeChoice::System,
             panels: Panels { program: true, messages: true, inspector: true },
+            full_screen: false,
             dialog: None,
             reveal: None,
             view: None,
@@ -314,6 +329,9 @@ impl Session {
             Command::Fit => self.fit = true,
             Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,
+            Command::FullScreen => self.full_screen = !self.full_screen,
+            Command::Palette => self.dialog = Some(Dialog::Palette { query: String::new(), selected: 0 }),
+            Command::CheatSheet => self.dialog = Some(Dialog::CheatSheet { query: String::new() }),
             Command::Toggle(Panel::Program) => self.panels.program = !self.panels.program,
             Command::Toggle(Panel::Messages) => self.panels.messages = !self.panels.messages,
             Command::Toggle(Panel::Inspector) => self.panels.inspector = !self.panels.inspector,

@@ -1,5 +1,6 @@
 //! From text to tree: never fails, never panics; what could not be read is reported.
 
+mod format;
 mod highlight;
 mod lexer;
 mod parser;
@@ -52,4 +53,5 @@ pub enum TokenClass {
     Error,
 }
 
+pub use format::format;
 pub use highlight::highlight;

@@ -23,17 +23,26 @@ const MOST_QUOTED: u64 = 64 << 20;
 /// # Errors
 /// [`Exit::Usage`] if it is a mesh, [`Exit::File`] if it cannot be read, [`Exit::Program`] if it has errors.
 pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Diagnostic>), Exit> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    if Format::from_extension(&extension).is_some() {
-        let diagnostic = error(format!("{} is a mesh, and a program is wanted", files::shown(path)));
-        return fail(reporter, Exit::Usage, diagnostic.hint("`vv run PROGRAM -i MESH` applies a program to a mesh"));
-    }
+    not_a_mesh(path, reporter)?;
     let text = files::read_program(path).map_err(|error| file_failed(&error, reporter))?;
     let (compilation, _) = files::compile(path, &text);
     reporter.report(&compilation.diagnostics, &compilation.sources);
     let failed = compilation.diagnostics.iter().any(|d| d.severity == Severity::Error);
     let program = compilation.program.filter(|_| !failed).ok_or(Exit::Program)?;
     Ok((program, compilation.diagnostics))
+}
+
+/// Refuses a mesh where a program is wanted.
+///
+/// # Errors
+/// [`Exit::Usage`] if it is a mesh.
+pub fn not_a_mesh(path: &Path, reporter: &Reporter) -> Result<(), Exit> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    if Format::from_extension(&extension).is_some() {
+        let diagnostic = error(format!("{} is a mesh, and a program is wanted", files::shown(path)));
+        return fail(reporter, Exit::Usage, diagnostic.hint("`vv run PROGRAM -i MESH` applies a program to a mesh"));
+    }
+    Ok(())
 }
 
 /// Reads a mesh and reports what was repaired; the warnings are also returned.

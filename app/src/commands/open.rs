@@ -80,9 +80,9 @@ fn sort(paths: &[PathBuf]) -> Result<Opened, Box<Diagnostic>> {
 fn unknown(path: &Path) -> Diagnostic {
     let shown = path.display().to_string();
     let diagnostic = error(format!("`{shown}` is neither a program (.vv) nor a mesh (.obj, .off) nor a command"));
-    match closest(&shown, ["run", "check", "mesh", "help"]) {
+    match closest(&shown, ["run", "check", "fmt", "mesh", "help"]) {
         Some(command) => diagnostic.hint(format!("did you mean `vv {command}`?")),
-        None => diagnostic.hint("the commands are `run`, `check` and `mesh`; `vv --help` explains them"),
+        None => diagnostic.hint("the commands are `run`, `check`, `fmt` and `mesh`; `vv --help` explains them"),
     }
 }
 

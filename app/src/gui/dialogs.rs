@@ -4,11 +4,17 @@ use std::path::PathBuf;
 
 use eframe::egui::{Context, Frame, Id, Key, Margin, Modal, RichText, TextEdit, Ui};
 
+use super::{cheat_sheet, palette};
 use crate::command::{Answer, Command};
 use crate::session::{Dialog, Purpose, Session};
 
 /// Shows the one that is open.
 pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+    match &session.dialog {
+        Some(Dialog::Palette { .. }) => return palette::show(ctx, session, commands),
+        Some(Dialog::CheatSheet { .. }) => return cheat_sheet::show(ctx, session, commands),
+        _ => {}
+    }
     let name = session.document.program.name.clone();
     let Some(dialog) = &mut session.dialog else { return };
     let mut chosen = None;
@@ -22,6 +28,7 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
                     chosen = Some((*purpose, path));
                 }
             }
+            Dialog::Palette { .. } | Dialog::CheatSheet { .. } => {} // shown above
         }
     });
     if response.should_close() {

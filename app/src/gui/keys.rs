@@ -9,7 +9,7 @@ use crate::session::Session;
 /// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed.
 pub fn take(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
     let typing = ctx.egui_wants_keyboard_input();
-    for command in Command::WITH_KEYS {
+    for command in command::with_keys() {
         for shortcut in command.describe().shortcuts {
             if typing && !command::acts_while_typing(shortcut) {
                 continue;
@@ -19,7 +19,8 @@ pub fn take(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
                 continue;
             }
             // Shift makes another key of a letter: `S` is not `s`.
-            let exact = ctx.input(|i| !i.modifiers.shift || shortcut.modifiers.shift);
+            let sign = shortcut.logical_key == Key::Questionmark; // on many keyboards above another sign
+            let exact = ctx.input(|i| !i.modifiers.shift || shortcut.modifiers.shift || sign);
             if exact && ctx.input_mut(|i| i.consume_shortcut(shortcut)) {
                 commands.push(command.clone());
             }

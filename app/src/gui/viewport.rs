@@ -23,6 +23,14 @@ use crate::scene::{Scene, Style, Theme};
 use crate::session::{Session, Stale};
 use crate::worker::Frame;
 
+/// What the mouse does, for the cheat sheet.
+pub const HANDS: &[(&str, &str)] = &[
+    ("left drag", "turn"),
+    ("right drag, middle drag, Shift + left drag", "shift"),
+    ("wheel, pinch", "zoom to the pointer"),
+    ("double click", "turn around this point"),
+];
+
 /// The panel's own state.
 pub struct Viewport {
     picture: Picture,

@@ -2,6 +2,7 @@
 
 mod budgets;
 mod files;
+mod layout;
 mod meshes;
 mod outputs;
 mod pictures;

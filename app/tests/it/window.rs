@@ -1,5 +1,7 @@
 //! The window, driven as a user drives it: by names, keys and the pointer.
 
+mod palette;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -1,6 +1,7 @@
 //! The syntax as a specification: text in; tree, messages or classes out.
 
 mod errors;
+mod format;
 mod lexical;
 mod listings;
 mod robust;

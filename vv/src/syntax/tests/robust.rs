@@ -35,7 +35,7 @@ fn holds(text: &str) -> Result<(), TestCaseError> {
 }
 
 /// Words and signs of the language in any order: far more of it parses than of random characters.
-fn soup() -> impl Strategy<Value = String> {
+pub(super) fn soup() -> impl Strategy<Value = String> {
     let words = [
         "vertex",
         "mesh",

@@ -1,0 +1,115 @@
+//! All keys, and what the mouse does.
+
+use eframe::egui::{
+    Color32, Context, Frame, Id, Key, Margin, Modal, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2,
+};
+
+use super::viewport;
+use crate::command::{Command, MENUS, find};
+use crate::session::{Dialog, Session};
+
+/// Keys that mean more than one command.
+const MORE: &[(&str, &str)] = &[("0 … 9", "go to this generation")];
+
+/// Shows it.
+pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+    let Some(Dialog::CheatSheet { query }) = &mut session.dialog else { return };
+    let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
+    let response = Modal::new(Id::unique("keys")).frame(frame).show(ctx, |ui| {
+        let room = ui.ctx().content_rect().size();
+        ui.set_width(760.0_f32.min(room.x - 60.0));
+        ui.horizontal(|ui| {
+            ui.heading("Keys");
+            ui.add_space(12.0);
+            let field = ui.add(TextEdit::singleline(query).hint_text("find").desired_width(220.0));
+            field.request_focus();
+            field.accessible_name("Find a key");
+        });
+        ui.add_space(10.0);
+        let sections = sections(ui, query);
+        let height = (room.y - 170.0).clamp(120.0, 640.0);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            if sections.is_empty() {
+                ui.weak("no key does that");
+            }
+            let columns = if room.x > 720.0 { 2 } else { 1 };
+            let split = fair_split(&sections, columns);
+            ui.columns(columns, |columns| {
+                for (i, section) in sections.iter().enumerate() {
+                    let column = usize::from(columns.len() > 1 && i >= split);
+                    show_section(&mut columns[column], section);
+                }
+            });
+        });
+    });
+    if response.should_close() || ctx.input(|i| i.key_pressed(Key::Enter)) {
+        commands.push(Command::CloseDialog);
+    }
+}
+
+struct Section {
+    title: &'static str,
+    rows: Vec<(String, String)>,
+}
+
+fn sections(ui: &Ui, query: &str) -> Vec<Section> {
+    let mut sections: Vec<Section> = MENUS
+        .iter()
+        .map(|menu| {
+            let commands = menu.groups.iter().copied().flatten();
+            let rows = commands.filter_map(|command| {
+                let description = command.describe();
+                let keys: Vec<String> = description.shortcuts.iter().map(|s| ui.ctx().format_shortcut(s)).collect();
+                (!keys.is_empty()).then(|| (keys.join("  or  "), description.label.trim_end_matches('…').to_owned()))
+            });
+            Section { title: menu.title, rows: rows.collect() }
+        })
+        .collect();
+    let fixed = |rows: &[(&str, &str)]| rows.iter().map(|&(a, b)| (a.to_owned(), b.to_owned())).collect::<Vec<_>>();
+    if let Some(run) = sections.iter_mut().find(|s| s.title == "Run") {
+        run.rows.extend(fixed(MORE));
+    }
+    sections.push(Section { title: "In the picture", rows: fixed(viewport::HANDS) });
+    for section in &mut sections {
+        section.rows.retain(|(keys, label)| find(query, &format!("{label} {keys}")).is_some());
+    }
+    sections.retain(|section| !section.rows.is_empty());
+    sections
+}
+
+/// How many sections stand in the first column, so that the columns are about as long.
+fn fair_split(sections: &[Section], columns: usize) -> usize {
+    let length = |s: &Section| s.rows.len() + 2;
+    let total: usize = sections.iter().map(length).sum();
+    let mut so_far = 0;
+    sections
+        .iter()
+        .take_while(|s| {
+            let half = so_far + length(s) / 2 < total.div_ceil(columns);
+            so_far += length(s);
+            half
+        })
+        .count()
+}
+
+fn show_section(ui: &mut Ui, section: &Section) {
+    ui.label(RichText::new(section.title).strong());
+    ui.add_space(2.0);
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = ui.available_width();
+    for (keys, label) in &section.rows {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            let name = ui.label(label);
+            let wanted = ui.painter().layout_no_wrap(keys.clone(), font.clone(), Color32::WHITE).size().x + 12.0;
+            ui.add_space((width - name.rect.width() - wanted - 24.0).max(8.0));
+            Frame::NONE.fill(ui.visuals().faint_bg_color).corner_radius(4).inner_margin(Margin::symmetric(6, 1)).show(
+                ui,
+                |ui| {
+                    ui.label(RichText::new(keys).color(ui.visuals().weak_text_color()));
+                },
+            );
+        });
+    }
+    ui.allocate_space(vec2(1.0, 10.0));
+}

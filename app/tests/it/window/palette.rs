@@ -1,0 +1,67 @@
+//! Commands found by typing, and the sheet of all keys.
+
+use super::*;
+use app::session::Dialog;
+
+fn type_into(window: &mut Harness<'static, App>, field: &str, text: &str) {
+    window.get_by_label(field).type_text(text);
+    window.run_steps(3);
+}
+
+fn open_palette(window: &mut Harness<'static, App>) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    window.run_steps(3);
+    assert!(matches!(window.state().session().dialog, Some(Dialog::Palette { .. })));
+}
+
+#[test]
+fn a_few_letters_and_enter_carry_a_command_out() {
+    let mut window = octahedron();
+    open_palette(&mut window);
+    type_into(&mut window, "Find a command", "smo");
+    press(&mut window, Key::Enter);
+    let session = window.state().session();
+    assert!(session.document.style.smooth);
+    assert!(session.dialog.is_none());
+}
+
+#[test]
+fn the_palette_finds_examples_and_meshes_and_is_walked_by_arrows() {
+    let mut window = octahedron();
+    open_palette(&mut window);
+    type_into(&mut window, "Find a command", "cube.obj");
+    press(&mut window, Key::Enter);
+    assert_eq!(window.state().session().document.mesh, MeshSource::BuiltIn("cube.obj".to_owned()));
+    open_palette(&mut window);
+    window.key_press(Key::ArrowUp);
+    window.run_steps(2);
+    window.key_press(Key::ArrowDown);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(2);
+    let Some(Dialog::Palette { selected, .. }) = &window.state().session().dialog else { panic!("closed") };
+    assert_eq!(*selected, 1, "up from the first goes to the last, and on from there to the first");
+    press(&mut window, Key::Escape);
+    assert!(window.state().session().dialog.is_none());
+}
+
+#[test]
+fn what_makes_no_sense_now_is_not_carried_out() {
+    let mut window = octahedron();
+    open_palette(&mut window);
+    type_into(&mut window, "Find a command", "rewind");
+    press(&mut window, Key::Enter);
+    assert!(window.state().session().dialog.is_some(), "generation 0 cannot be rewound");
+}
+
+#[test]
+fn the_sheet_of_keys_is_searched() {
+    let mut window = octahedron();
+    press(&mut window, Key::H);
+    window.get_by_label("Save mesh as");
+    window.get_by_label("zoom to the pointer");
+    type_into(&mut window, "Find a key", "wheel");
+    assert!(window.query_by_label("Save mesh as").is_none());
+    window.get_by_label("zoom to the pointer");
+    press(&mut window, Key::Escape);
+    assert!(window.state().session().dialog.is_none());
+}
