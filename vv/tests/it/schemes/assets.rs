@@ -88,7 +88,8 @@ fn every_program_runs_on_every_mesh_it_is_for() {
             let rule_name = &program.function(rule).unwrap().name;
             let row = CLAIMS.iter().find(|(f, r, _)| *f == file && r.is_none_or(|r| r == rule_name));
             let class = row.map(|row| row.2).or(program.start.map(|_| Class::Own));
-            let class = class.unwrap_or_else(|| panic!("{file} {rule_name} has no row that says which meshes it is for"));
+            let class =
+                class.unwrap_or_else(|| panic!("{file} {rule_name} has no row that says which meshes it is for"));
             let claimed: Vec<_> = meshes.iter().filter(|(_, statistics, _)| supports(class, statistics)).collect();
             assert!(class == Class::Own || !claimed.is_empty(), "{file}");
             for (mesh_name, _, mesh) in claimed {
