@@ -17,8 +17,19 @@
 //! error as soon as it is computed, before anything that follows in order; likewise a vertex without an old value where
 //! its old value is meant.
 //!
-//! **Sets and loops.** `forall` walks a set or ring as it stood when the loop began. A set iterates in order of
-//! addition.
+//! **Sets and loops.** `forall` walks a set, a ring or the faces of a set as they stood when the loop began. A set
+//! iterates in order of addition.
+//!
+//! **Rings.** The ring of a vertex is asked and edited as [`crate::mesh::Ring`] and [`crate::mesh::Mesh`] tell. A
+//! variable of type `ring` holds a cyclic list of vertices by value, with a start, without gaps; a vertex may stand in
+//! it more than once, then what looks for it finds the first. Its edits follow those of a vertex' ring, except that
+//! nothing is refused: erasing the start moves it on, `replace` keeps the place, splicing before the start appends at
+//! the end.
+//!
+//! **Faces.** The faces of a set are those of [`crate::mesh::faces::faces_of`], in its order, each beginning at its
+//! corner. A face is a ring of its own: edits of the mesh and of other variables do not change it, and no statement
+//! edits, assigns or passes by reference the variable of a [`StmtKind::ForallFaces`]. So all faces may be computed at
+//! once, flat, as the loop begins, and the variable be a slice of them.
 //!
 //! **Old values.** [`StmtKind::Synchronize`] gives every vertex of the set a copy of its ring, position, vertex
 //! properties and edge values. The copy belongs to the vertex: the last `synchronize` that covered it wins. None
@@ -110,6 +121,8 @@ pub enum Type {
     Value(crate::mesh::Type),
     /// A vertex set with mesh properties.
     Mesh,
+    /// A cyclic list of vertices.
+    Ring,
 }
 
 /// A constant or a parameter.
@@ -197,8 +210,8 @@ pub struct Stmt {
 /// The statements.
 #[derive(Debug, Clone)]
 pub enum StmtKind {
-    /// Gives a variable its first value, anew each time it is reached: `init`, or false, 0, the origin, an empty set
-    /// with mesh properties at their defaults. `vertex v;` arrives with [`ExprKind::Create`] as its `init`, a vertex
+    /// Gives a variable its first value, anew each time it is reached: `init`, or false, 0, the origin, an empty ring, an
+    /// empty set with mesh properties at their defaults. `vertex v;` arrives with [`ExprKind::Create`] as its `init`, a vertex
     /// variable without one is null.
     Declare {
         /// The variable.
@@ -239,12 +252,26 @@ pub enum StmtKind {
         /// Each time round.
         body: Vec<Stmt>,
     },
-    /// ``forall q in p`` and ``forall q in `p``, over the neighbours, gaps left out, as they stand now.
+    /// ``forall q in p``, ``forall q in `p``, `forall q in r`: once round a ring, gaps left out, as it stands now.
     ForallRing {
         /// The loop's variable, of type vertex.
         local: LocalId,
-        /// Whose.
+        /// In `forall p, q in r` the variable for what follows `local`: the rounds are those p whose follower is no
+        /// gap. The last is followed by the first, also where it is the only one.
+        follower: Option<LocalId>,
+        /// Of what.
         ring: Ring,
+        /// Where the round begins; at the start of the ring if there is none.
+        from: Option<From>,
+        /// Each time round.
+        body: Vec<Stmt>,
+    },
+    /// `forall f in faces S`, see *Faces* above.
+    ForallFaces {
+        /// The loop's variable, of type ring; only read.
+        local: LocalId,
+        /// Of type mesh.
+        set: Expr,
         /// Each time round.
         body: Vec<Stmt>,
     },
@@ -261,32 +288,39 @@ pub enum StmtKind {
         /// Whose ring.
         of: Expr,
     },
+    /// `make r nb_of v`: gives v the vertices of a ring, in order, as [`StmtKind::Make`] does.
+    MakeRing {
+        /// A variable of type ring.
+        ring: LocalId,
+        /// Whose ring.
+        of: Expr,
+    },
     /// `erase x from v`. No effect if x is not there.
     Erase {
         /// A computed null is an error.
         item: Item,
-        /// Whose ring.
-        from: Expr,
+        /// Not an old one.
+        from: Ring,
     },
     /// `replace a with x in v`. No effect if a is not there or x = a.
     Replace {
         /// A computed null is an error.
         item: Item,
-        /// A computed null is a gap.
+        /// A computed null is a gap, and an error for a ring variable.
         with: Item,
-        /// Whose ring.
-        ring: Expr,
+        /// Not an old one.
+        ring: Ring,
     },
     /// `splice x after a in v`. No effect if a is not there.
     Splice {
-        /// A computed null is a gap.
+        /// A computed null is a gap, and an error for a ring variable.
         item: Item,
         /// After or before.
         side: Side,
         /// A computed null is an error.
         anchor: Item,
-        /// Whose ring.
-        ring: Expr,
+        /// Not an old one.
+        ring: Ring,
     },
     /// `synchronize S`
     Synchronize(Expr),
@@ -296,6 +330,13 @@ pub enum StmtKind {
         vertex: Expr,
         /// A variable of type mesh.
         set: LocalId,
+    },
+    /// `add v to r`: at the end; adding null is an error.
+    Append {
+        /// Which vertex.
+        vertex: Expr,
+        /// A variable of type ring.
+        ring: LocalId,
     },
     /// `remove v from S`; removing null is an error.
     Remove {
@@ -321,28 +362,65 @@ pub enum StmtKind {
 pub enum PrintItem {
     /// A string literal.
     Text(String),
-    /// A value: `true`, `42`, `(x, y, z)`, `v7`, `null`; a mesh prints as its members, `{v1, v2}`. A double is the
-    /// shortest decimal that reads back as the same double: `1`, `0.1`, `-0`, with an exponent below 1e-5 and from 1e16
-    /// on (`1e-7`), `inf`, `-inf`, `nan`.
+    /// A value: `true`, `42`, `(x, y, z)`, `v7`, `null`; a mesh prints as its members, `{v1, v2}`, a ring
+    /// likewise from its start. A double is the shortest decimal that reads back as the same double: `1`, `0.1`, `-0`,
+    /// with an exponent below 1e-5 and from 1e16 on (`1e-7`), `inf`, `-inf`, `nan`.
     Value(Expr),
 }
 
 /// What is looked for in a ring or put there.
 #[derive(Debug, Clone)]
 pub enum Item {
-    /// The word `null` itself: the first gap, or a gap to put in.
+    /// The word `null` itself: the first gap, or a gap to put in. Never with a ring variable, which has none.
     Gap(Span),
     /// Of type vertex.
     Vertex(Expr),
 }
 
-/// A ring that is read: of the vertex as it is, or as it was at the last `synchronize`.
+/// A ring that is read or edited.
 #[derive(Debug, Clone)]
-pub struct Ring {
-    /// Of type vertex; null is an error.
-    pub vertex: Box<Expr>,
-    /// Whether the old ring is meant.
-    pub old: bool,
+pub enum Ring {
+    /// Of a vertex, as it is, or as it was at the last `synchronize`.
+    Of {
+        /// Of type vertex; null is an error.
+        vertex: Box<Expr>,
+        /// Whether the old ring is meant.
+        old: bool,
+    },
+    /// A variable of type ring.
+    Variable {
+        /// Which.
+        local: LocalId,
+        /// Where it is named.
+        span: Span,
+    },
+}
+
+impl Ring {
+    /// Whether an old ring is meant.
+    #[must_use]
+    pub fn is_old(&self) -> bool {
+        matches!(self, Self::Of { old: true, .. })
+    }
+
+    /// Where the vertex or variable stands.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Of { vertex, .. } => vertex.span,
+            Self::Variable { span, .. } => *span,
+        }
+    }
+}
+
+/// Where a `forall` round a ring begins: `from p` at the first p, `from p, q` at the first p that is followed by q. It
+/// is computed after the ring. An error if there is no such place, or where one of them is null.
+#[derive(Debug, Clone)]
+pub struct From {
+    /// Of type vertex.
+    pub corner: Expr,
+    /// Of type vertex.
+    pub next: Option<Expr>,
 }
 
 /// An expression.
@@ -377,7 +455,8 @@ pub enum ExprKind {
     And(Box<Expr>, Box<Expr>),
     /// `a || b`: b only if not a. Both bool.
     Or(Box<Expr>, Box<Expr>),
-    /// `condition ? then : otherwise`, the condition bool, the others of one type, a mesh too; one of them is computed.
+    /// `condition ? then : otherwise`, the condition bool, the others of one type, a mesh or ring too; one of them is
+    /// computed.
     Conditional(Box<Expr>, Box<Expr>, Box<Expr>),
     /// A coordinate (0, 1, 2) of a vec that is no place.
     Coordinate(Box<Expr>, u8),
@@ -399,6 +478,8 @@ pub enum ExprKind {
     Step(Box<Place>, Step, StepPosition),
     /// `S = T`: S takes over T's members, its properties stay. Of type void.
     AssignSet(LocalId, Box<Expr>),
+    /// `r = s` for rings. Of type void.
+    AssignRing(LocalId, Box<Expr>),
     /// `vertex v;`: a new vertex with an empty ring, at the origin, its properties at their defaults, in no set.
     Create,
     /// `any in v`: the start of the ring, null if the ring is empty.
@@ -413,7 +494,7 @@ pub enum ExprKind {
     IsInSet(Box<Expr>, Box<Expr>),
     /// `valence v`: neighbours without gaps, an int.
     Valence(Ring),
-    /// `gaps v`, an int.
+    /// `gaps v`, an int; not of a ring variable.
     Gaps(Ring),
 }
 

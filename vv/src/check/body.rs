@@ -51,6 +51,8 @@ pub(super) enum Role {
     Parameter,
     Local,
     Forall,
+    /// The face of a `forall`, which nothing changes.
+    Face,
 }
 
 /// What is known of a variable where it is declared.

@@ -3,7 +3,7 @@
 use crate::builtins::{Builtin, Code, type_name};
 use crate::diagnostic::Diagnostic;
 use crate::ir::{
-    Argument, Compound, Expr, ExprKind, FunctionId, Item, Passing, Place, Step, StepPosition, Type, Unary,
+    Argument, Compound, Expr, ExprKind, FunctionId, Item, Passing, Place, Ring, Step, StepPosition, Type, Unary,
 };
 use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
@@ -31,6 +31,7 @@ impl<'a> Checker<'a> {
         match e.ty {
             Type::Value(_) => Some(e),
             Type::Mesh => self.fail(Diagnostic::error(e.span, "a mesh is no value to compute with")),
+            Type::Ring => self.fail(Diagnostic::error(e.span, "a ring is no value to compute with")),
             Type::Void => self.fail(Diagnostic::error(e.span, "this gives no value")),
         }
     }
@@ -89,12 +90,12 @@ impl<'a> Checker<'a> {
                 expr(ExprKind::Any(ring), VERTEX)
             }
             Tree::Next { item, ring } => {
-                let (item_ir, ring) = (self.item(item), self.ring(ring, Some(item)));
-                expr(ExprKind::Next(Box::new(item_ir?), ring?), VERTEX)
+                let (item, ring) = self.look_up(item, ring)?;
+                expr(ExprKind::Next(Box::new(item), ring), VERTEX)
             }
             Tree::Previous { item, ring } => {
-                let (item_ir, ring) = (self.item(item), self.ring(ring, Some(item)));
-                expr(ExprKind::Previous(Box::new(item_ir?), ring?), VERTEX)
+                let (item, ring) = self.look_up(item, ring)?;
+                expr(ExprKind::Previous(Box::new(item), ring), VERTEX)
             }
             Tree::Is { item, of } => self.is(item, of, span),
             Tree::Valence { ring } => {
@@ -103,17 +104,29 @@ impl<'a> Checker<'a> {
             }
             Tree::Gaps { ring } => {
                 let ring = self.ring(ring, None)?;
+                self.fits(&Item::Gap(span), &ring)?;
                 expr(ExprKind::Gaps(ring), INT)
             }
             Tree::Error => None,
         }
     }
 
+    /// What is looked for, and where.
+    fn look_up(&mut self, item: &'a tree::Expr, ring: &'a tree::Expr) -> Option<(Item, Ring)> {
+        let (item_ir, ring) = (self.item(item), self.ring(ring, Some(item)));
+        let (item, ring) = (item_ir?, ring?);
+        self.fits(&item, &ring)?;
+        Some((item, ring))
+    }
+
     /// `is x in v` asks a ring, `is v in S` a set, in which null never is.
     fn is(&mut self, item: &'a tree::Expr, of: &'a tree::Expr, span: Span) -> Option<Expr> {
         let (item_ir, domain) = (self.item(item), self.domain(of, Some(item)));
         let kind = match (domain?, item_ir?) {
-            (Domain::Ring(ring), item) => ExprKind::IsInRing(Box::new(item), ring),
+            (Domain::Ring(ring), item) => {
+                self.fits(&item, &ring)?;
+                ExprKind::IsInRing(Box::new(item), ring)
+            }
             (Domain::Set(set), Item::Vertex(v)) => ExprKind::IsInSet(Box::new(v), Box::new(set)),
             (Domain::Set(set), Item::Gap(span)) => {
                 let null = Expr { kind: ExprKind::Constant(Value::Vertex(None)), ty: VERTEX, span };
@@ -237,23 +250,26 @@ impl<'a> Checker<'a> {
     ) -> Option<Expr> {
         if let Tree::Name(name) = &bare(target).kind
             && let Some(id) = self.body.find(name)
-            && self.body.type_of(id) == Some(Type::Mesh)
+            && let Some(ty @ (Type::Mesh | Type::Ring)) = self.body.type_of(id)
         {
             self.body.mention(id);
-            let set = self.changeable(id, target.span);
+            let changeable = self.changeable(id, target.span);
             if let Some(op) = op {
                 let text = self.text(value.span);
-                let error = Diagnostic::error(span, format!("`{}=` does not work on a mesh", symbol(op)));
+                let what = if ty == Type::Mesh { "mesh" } else { "ring" };
+                let error = Diagnostic::error(span, format!("`{}=` does not work on a {what}", symbol(op)));
                 return self.fail(match op {
+                    BinaryOp::Add if ty == Type::Ring => error.hint(format!("write `add {text} to {name};`")),
                     BinaryOp::Add => {
                         error.hint(format!("write `merge {name} with {text};` or `add {text} to {name};`"))
                     }
                     _ => error,
                 });
             }
-            let mesh = self.mesh(value)?;
-            set?;
-            return Some(Expr { kind: ExprKind::AssignSet(id, Box::new(mesh)), ty: Type::Void, span });
+            let value = Box::new(self.whole(value, ty)?);
+            changeable?;
+            let kind = if ty == Type::Mesh { ExprKind::AssignSet(id, value) } else { ExprKind::AssignRing(id, value) };
+            return Some(Expr { kind, ty: Type::Void, span });
         }
         let (place, value) = (self.target(target), self.value(value));
         let (Typed { place, ty }, value) = (place?, value?);
@@ -399,8 +415,8 @@ impl<'a> Checker<'a> {
     }
 
     fn passed_value(&mut self, argument: &'a tree::Expr, ty: Option<Type>) -> Option<Argument> {
-        if ty == Some(Type::Mesh) {
-            return self.mesh(argument).map(Argument::Value);
+        if let Some(ty @ (Type::Mesh | Type::Ring)) = ty {
+            return self.whole(argument, ty).map(Argument::Value);
         }
         let value = self.value(argument)?;
         let Type::Value(ty) = ty? else { return None };
@@ -452,7 +468,7 @@ impl<'a> Checker<'a> {
 fn value_of(ty: Type) -> Option<ValueType> {
     match ty {
         Type::Value(ty) => Some(ty),
-        Type::Void | Type::Mesh => None,
+        Type::Void | Type::Mesh | Type::Ring => None,
     }
 }
 
@@ -484,6 +500,7 @@ pub(super) fn has_effect(e: &Expr) -> bool {
     match &e.kind {
         ExprKind::Assign { .. }
         | ExprKind::AssignSet(..)
+        | ExprKind::AssignRing(..)
         | ExprKind::Step(..)
         | ExprKind::Call(..)
         | ExprKind::Create => true,
@@ -495,16 +512,23 @@ pub(super) fn has_effect(e: &Expr) -> bool {
             has_effect(a) || has_effect(b)
         }
         ExprKind::Conditional(a, b, c) => has_effect(a) || has_effect(b) || has_effect(c),
-        ExprKind::Any(ring) | ExprKind::Valence(ring) | ExprKind::Gaps(ring) => has_effect(&ring.vertex),
+        ExprKind::Any(ring) | ExprKind::Valence(ring) | ExprKind::Gaps(ring) => ring_has_effect(ring),
         ExprKind::Next(item, ring) | ExprKind::Previous(item, ring) | ExprKind::IsInRing(item, ring) => {
             let item = match &**item {
                 Item::Vertex(e) => has_effect(e),
                 Item::Gap(_) => false,
             };
-            item || has_effect(&ring.vertex)
+            item || ring_has_effect(ring)
         }
         ExprKind::Constant(_) | ExprKind::Local(_) | ExprKind::Global(_) => false,
         ExprKind::Load(place) => place_has_effect(place),
+    }
+}
+
+fn ring_has_effect(ring: &Ring) -> bool {
+    match ring {
+        Ring::Of { vertex, .. } => has_effect(vertex),
+        Ring::Variable { .. } => false,
     }
 }
 

@@ -14,6 +14,7 @@ pub(super) fn type_of(kind: TypeKind) -> Type {
     match kind {
         TypeKind::Void => Type::Void,
         TypeKind::Mesh => Type::Mesh,
+        TypeKind::Ring => Type::Ring,
         TypeKind::Bool => Type::Value(ValueType::Bool),
         TypeKind::Int => Type::Value(ValueType::Int),
         TypeKind::Double => Type::Value(ValueType::Double),
@@ -25,7 +26,7 @@ pub(super) fn type_of(kind: TypeKind) -> Type {
 pub(super) fn value_type(kind: TypeKind) -> Option<ValueType> {
     match type_of(kind) {
         Type::Value(ty) => Some(ty),
-        Type::Void | Type::Mesh => None,
+        Type::Void | Type::Mesh | Type::Ring => None,
     }
 }
 
@@ -34,6 +35,7 @@ pub(super) fn name(ty: Type) -> &'static str {
     match ty {
         Type::Void => "void",
         Type::Mesh => "mesh",
+        Type::Ring => "ring",
         Type::Value(ty) => type_name(ty),
     }
 }
@@ -219,6 +221,12 @@ impl<'a> Checker<'a> {
                 error.fix(format!("its position is `{text}$pos`"), e.span, format!("{text}$pos"))
             }
             (Type::Mesh, _) if wanted == vertex => error.hint("`forall p in S` walks the vertices of a mesh `S`"),
+            (Type::Ring, _) if wanted == vertex => {
+                error.hint(format!("`forall p in {text}` walks the vertices of a ring"))
+            }
+            (_, Type::Ring) if e.ty == vertex => {
+                error.hint(format!("a ring begins empty, `ring r;`, and grows by `add {text} to r;`"))
+            }
             (Type::Value(ValueType::Vec), Type::Value(ValueType::Double)) => {
                 error.hint("take a coordinate, `.x`, or its `length`")
             }

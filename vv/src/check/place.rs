@@ -8,6 +8,7 @@ use crate::source::Span;
 use crate::syntax::tree::{self, Element, ExprKind as Tree};
 
 use super::Checker;
+use super::body::Role;
 use super::operator::a;
 use super::suggest::Wanted;
 
@@ -125,11 +126,91 @@ impl<'a> Checker<'a> {
         self.vertex_or_null(e).map(Item::Vertex)
     }
 
-    /// The ring that is read, `v` or `` `v ``; a name that is unknown hardly means that of `item`.
+    /// The ring that is read, `v`, `` `v `` or a variable; a name that is unknown hardly means that of `item`.
     pub(super) fn ring(&mut self, e: &'a tree::Expr, item: Option<&'a tree::Expr>) -> Option<Ring> {
         let (inner, old) = self.without_mark(e);
-        let vertex = self.vertex_but(inner, name_of(item))?;
-        Some(Ring { vertex: Box::new(vertex), old })
+        let found = self.operand(inner, name_of(item))?;
+        self.ring_of(found, old, e)
+    }
+
+    /// A vertex or ring as a ring. `e` is where it stands, with its mark.
+    fn ring_of(&mut self, found: Expr, old: bool, e: &'a tree::Expr) -> Option<Ring> {
+        if found.ty != Type::Ring {
+            return Some(Ring::Of { vertex: Box::new(self.only_true_vertex(found)?), old });
+        }
+        if old {
+            let text = self.text(found.span);
+            let error = Diagnostic::error(e.span, "a `ring` has no old value, it is a value itself");
+            return self.fail(error.fix("leave the mark out", e.span, text));
+        }
+        self.ring_variable(&found).map(|local| Ring::Variable { local, span: found.span })
+    }
+
+    fn ring_variable(&mut self, ring: &Expr) -> Option<LocalId> {
+        match ring.kind {
+            ExprKind::Local(local) => Some(local),
+            _ => self.fail(
+                Diagnostic::error(ring.span, "rings are walked, asked and used through variables")
+                    .hint(format!("keep this one first: `ring r = {};`", self.text(ring.span))),
+            ),
+        }
+    }
+
+    /// The ring that is edited.
+    pub(super) fn edited(&mut self, e: &'a tree::Expr) -> Option<Ring> {
+        if let Tree::Old(inner) = &bare(e).kind {
+            let now = self.text(inner.span);
+            return self.fail(Diagnostic::error(e.span, "an old ring can only be read").fix(
+                format!("the ring as it is now is that of `{now}`"),
+                e.span,
+                now,
+            ));
+        }
+        let found = self.operand(e, None)?;
+        if found.ty == Type::Mesh {
+            let error = Diagnostic::error(found.span, "this is a `mesh`, and rings are edited");
+            let text = self.text(found.span);
+            return self
+                .fail(error.hint(format!("members come and go by `add v to {text};` and `remove v from {text};`")));
+        }
+        let ring = self.ring_of(found, false, e)?;
+        if let Ring::Variable { local, span } = ring {
+            self.changeable(local, span)?;
+        }
+        Some(ring)
+    }
+
+    /// The vertex that gets a ring.
+    pub(super) fn ring_taker(&mut self, e: &'a tree::Expr) -> Option<Expr> {
+        match self.edited(e)? {
+            Ring::Of { vertex, .. } => Some(*vertex),
+            Ring::Variable { span, .. } => {
+                let text = self.text(span);
+                let error = Diagnostic::error(span, "a `ring` is no vertex, so it has no neighbours");
+                self.fail(error.hint(format!("a ring begins empty, `ring {text};`, and grows by `add v to {text};`")))
+            }
+        }
+    }
+
+    /// The variable `r` of `make r nb_of v`.
+    pub(super) fn made_ring(&mut self, e: &'a tree::Expr) -> Option<LocalId> {
+        let found = self.expression(e)?;
+        if found.ty == VERTEX {
+            let text = self.text(e.span);
+            let error = Diagnostic::error(e.span, "this is a `vertex`, not a list or a `ring`");
+            return self.fail(error.fix("write a list", e.span, format!("{{{text}}}")));
+        }
+        if found.ty == Type::Ring { self.ring_variable(&found) } else { self.mismatch(&found, Type::Ring) }
+    }
+
+    /// Reports a gap where there can be none.
+    pub(super) fn fits(&mut self, item: &Item, ring: &Ring) -> Option<()> {
+        match (item, ring) {
+            (Item::Gap(span), Ring::Variable { .. }) => {
+                self.fail(Diagnostic::error(*span, "a `ring` has no gaps, only the ring of a vertex may have some"))
+            }
+            _ => Some(()),
+        }
     }
 
     /// What `forall` walks and `is` asks: a mesh or a ring.
@@ -138,14 +219,14 @@ impl<'a> Checker<'a> {
         let found = self.operand(inner, name_of(item))?;
         match found.ty {
             Type::Mesh if !old => Some(Domain::Set(found)),
-            VERTEX => Some(Domain::Ring(Ring { vertex: Box::new(self.only_true_vertex(found)?), old })),
+            VERTEX | Type::Ring => self.ring_of(found, old, e).map(Domain::Ring),
             Type::Mesh => {
                 self.fail(
                     Diagnostic::error(e.span, "a mesh has no old members, its vertices have old rings and properties")
                         .fix("the mesh as it is", e.span, self.text(inner.span)),
                 )
             }
-            other => self.fail(Diagnostic::error(found.span, format!("this is {}, no mesh and no vertex", a(other)))),
+            other => self.fail(Diagnostic::error(found.span, format!("this is {}, no mesh, vertex or ring", a(other)))),
         }
     }
 
@@ -197,7 +278,10 @@ impl<'a> Checker<'a> {
                     format!("vertices, edges and meshes have properties, {} has none", a(other)),
                 );
                 let is_vec = other == Type::Value(ValueType::Vec);
-                self.fail(if is_vec && matches!(name.text.as_str(), "x" | "y" | "z") {
+                let text = self.text(inner.span);
+                self.fail(if other == Type::Ring {
+                    error.hint(format!("its vertices have: `forall p in {text} … p${} …`", name.text))
+                } else if is_vec && matches!(name.text.as_str(), "x" | "y" | "z") {
                     error.hint(format!("a coordinate is written `.{}`", name.text))
                 } else {
                     error
@@ -283,8 +367,10 @@ impl<'a> Checker<'a> {
                     self.changeable(id, e.span)?;
                     Some(Typed { place: Place::Local(id), ty })
                 }
-                Named::Local(..) => {
-                    self.fail(Diagnostic::error(e.span, "a mesh can only be assigned to as a whole: `S = T;`"))
+                Named::Local(_, ty) => {
+                    let whole = if ty == Type::Ring { "a ring" } else { "a mesh" };
+                    let message = format!("{whole} can only be assigned to as a whole: `{name} = …;`");
+                    self.fail(Diagnostic::error(e.span, message))
                 }
                 Named::Global(id, _) => {
                     let (declared, is_param) =
@@ -351,6 +437,10 @@ impl<'a> Checker<'a> {
             return Some(());
         }
         let (name, declared) = (self.body.name(id), self.body.local(id).map_or(span, |l| l.span));
+        if self.body.role(id) == Some(Role::Face) {
+            let error = Diagnostic::error(span, format!("`{name}` cannot be changed: it is the face of a `forall`"));
+            return self.fail(error.label(declared, "walked here").hint(format!("change a copy: `ring r = {name};`")));
+        }
         self.fail(
             Diagnostic::error(span, format!("`{name}` cannot be changed: it is `const`"))
                 .label(declared, "declared here"),
@@ -359,27 +449,45 @@ impl<'a> Checker<'a> {
 
     /// A mesh variable that can be changed.
     pub(super) fn set(&mut self, e: &'a tree::Expr) -> Option<LocalId> {
+        match self.collection(e)? {
+            (id, Type::Mesh) => Some(id),
+            (id, ty) => {
+                let e = bare(e);
+                let found = Expr { kind: ExprKind::Local(id), ty, span: e.span };
+                self.mismatch(&found, Type::Mesh)
+            }
+        }
+    }
+
+    /// A mesh or ring variable that can be changed.
+    pub(super) fn collection(&mut self, e: &'a tree::Expr) -> Option<(LocalId, Type)> {
         let e = bare(e);
-        let Tree::Name(name) = &e.kind else {
-            let mesh = self.expression(e)?;
-            return if mesh.ty == Type::Mesh {
-                self.fail(Diagnostic::error(e.span, "this mesh is no variable, so nobody would see the change"))
-            } else {
-                self.mismatch(&mesh, Type::Mesh)
-            };
+        let found = match &e.kind {
+            Tree::Name(name) => self.name_expression(name, e.span, Wanted::Any)?,
+            _ => self.expression(e)?,
         };
-        let named = self.name_expression(name, e.span, Wanted::Any)?;
-        let (ExprKind::Local(id), Type::Mesh) = (&named.kind, named.ty) else {
-            return self.mismatch(&named, Type::Mesh);
-        };
-        let id = *id;
-        self.changeable(id, e.span)?;
-        Some(id)
+        match (&found.kind, found.ty) {
+            (&ExprKind::Local(id), ty @ (Type::Mesh | Type::Ring)) => {
+                self.changeable(id, e.span)?;
+                Some((id, ty))
+            }
+            (_, Type::Mesh | Type::Ring) => {
+                let what = if found.ty == Type::Mesh { "mesh" } else { "ring" };
+                let message = format!("this {what} is no variable, so nobody would see the change");
+                self.fail(Diagnostic::error(e.span, message))
+            }
+            _ => self.mismatch(&found, Type::Mesh),
+        }
     }
 
     /// A mesh of any kind.
     pub(super) fn mesh(&mut self, e: &'a tree::Expr) -> Option<Expr> {
-        let mesh = self.expression(e)?;
-        if mesh.ty == Type::Mesh { Some(mesh) } else { self.mismatch(&mesh, Type::Mesh) }
+        self.whole(e, Type::Mesh)
+    }
+
+    /// An expression of type mesh or ring, whichever is wanted.
+    pub(super) fn whole(&mut self, e: &'a tree::Expr, ty: Type) -> Option<Expr> {
+        let found = self.expression(e)?;
+        if found.ty == ty { Some(found) } else { self.mismatch(&found, ty) }
     }
 }

@@ -1,7 +1,7 @@
 //! Statements. Each tells whether the one after it can be reached.
 
 use crate::diagnostic::Diagnostic;
-use crate::ir::{Expr, ExprKind, Place, PrintItem, Stmt, StmtKind, Type};
+use crate::ir::{self, Expr, ExprKind, Item, LocalId, Place, PrintItem, Ring, Stmt, StmtKind, Type};
 use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
 use crate::syntax::tree::{self, ExprKind as Tree, StmtKind as TreeStmt};
@@ -90,7 +90,7 @@ impl<'a> Checker<'a> {
             TreeStmt::For { init, condition, update, body } => {
                 return self.for_loop(init.as_deref(), condition.as_ref(), update, body, span, out);
             }
-            TreeStmt::Forall { variable, over, body } => self.forall(variable, over, body),
+            TreeStmt::Forall(forall) => self.forall(forall),
             TreeStmt::Break | TreeStmt::Continue => {
                 let is_break = matches!(s.kind, TreeStmt::Break);
                 if self.body.loops == 0 {
@@ -109,19 +109,23 @@ impl<'a> Checker<'a> {
             }
             TreeStmt::Make { items, of } => {
                 let items: Vec<_> = items.iter().map(|item| self.item(item)).collect();
-                let of = self.edited(of);
+                let of = self.ring_taker(of);
                 items.into_iter().collect::<Option<_>>().zip(of).map(|(items, of)| StmtKind::Make { items, of })
             }
+            TreeStmt::MakeRing { ring, of } => {
+                let (ring, of) = (self.made_ring(ring), self.ring_taker(of));
+                ring.zip(of).map(|(ring, of)| StmtKind::MakeRing { ring, of })
+            }
             TreeStmt::Erase { item, from } => {
-                let (item, from) = (self.item(item), self.edited(from));
+                let ([item], from) = self.edit([item], from);
                 item.zip(from).map(|(item, from)| StmtKind::Erase { item, from })
             }
             TreeStmt::Replace { item, with, ring } => {
-                let (item, with, ring) = (self.item(item), self.item(with), self.edited(ring));
+                let ([item, with], ring) = self.edit([item, with], ring);
                 item.zip(with).zip(ring).map(|((item, with), ring)| StmtKind::Replace { item, with, ring })
             }
             TreeStmt::Splice { item, side, anchor, ring } => {
-                let (item, anchor, ring) = (self.item(item), self.item(anchor), self.edited(ring));
+                let ([item, anchor], ring) = self.edit([item, anchor], ring);
                 let parts = item.zip(anchor).zip(ring);
                 parts.map(|((item, anchor), ring)| StmtKind::Splice { item, side: *side, anchor, ring })
             }
@@ -131,8 +135,21 @@ impl<'a> Checker<'a> {
             }
             TreeStmt::Add { vertex, set } => self.add(vertex, set),
             TreeStmt::Remove { vertex, set } => {
+                if let Some((text, ring)) = self.named_ring(set) {
+                    let vertex = self.text(vertex.span);
+                    let error = Diagnostic::error(set.span, "this is a `ring`, not a `mesh`");
+                    self.report(error.hint(format!("write `erase {vertex} from {text};`")));
+                    self.body.mention(ring);
+                    return true;
+                }
                 let (vertex, set) = (self.vertex(vertex), self.set(set));
                 vertex.zip(set).map(|(vertex, set)| StmtKind::Remove { vertex, set })
+            }
+            TreeStmt::Merge { set, .. } if self.named_ring(set).is_some() => {
+                let text = self.text(set.span);
+                let error = Diagnostic::error(set.span, "this is a `ring`, and meshes are merged");
+                self.report(error.hint(format!("rings grow vertex by vertex: `add v to {text};`")));
+                None
             }
             TreeStmt::Merge { set, other } => {
                 let (set, other) = (self.set(set), self.merged(set, other));
@@ -149,17 +166,26 @@ impl<'a> Checker<'a> {
         true
     }
 
-    /// The vertex whose ring is changed.
-    fn edited(&mut self, e: &'a tree::Expr) -> Option<Expr> {
-        if let Tree::Old(inner) = &bare(e).kind {
-            let now = self.text(inner.span);
-            return self.fail(Diagnostic::error(e.span, "an old ring can only be read").fix(
-                format!("the ring as it is now is that of `{now}`"),
-                e.span,
-                now,
-            ));
-        }
-        self.vertex(e)
+    /// Items and the ring that they are looked for in or put into; `None` for what is faulty.
+    fn edit<const N: usize>(
+        &mut self,
+        items: [&'a tree::Expr; N],
+        ring: &'a tree::Expr,
+    ) -> ([Option<Item>; N], Option<Ring>) {
+        let items = items.map(|item| self.item(item));
+        let ring = self.edited(ring);
+        let items = items.map(|item| match &ring {
+            Some(ring) => item.filter(|item| self.fits(item, ring).is_some()),
+            None => item,
+        });
+        (items, ring)
+    }
+
+    /// The ring variable that is named, with its name.
+    fn named_ring(&self, e: &'a tree::Expr) -> Option<(&'a str, LocalId)> {
+        let Tree::Name(name) = &bare(e).kind else { return None };
+        let id = self.body.find(name)?;
+        (self.body.type_of(id) == Some(Type::Ring)).then_some((name, id))
     }
 
     fn add(&mut self, vertex: &'a tree::Expr, set: &'a tree::Expr) -> Option<StmtKind> {
@@ -174,8 +200,11 @@ impl<'a> Checker<'a> {
                     .hint(format!("write `merge {text} with {name};`")),
             );
         }
-        let (vertex, set) = (self.vertex(vertex), self.set(set));
-        vertex.zip(set).map(|(vertex, set)| StmtKind::Add { vertex, set })
+        let (vertex, to) = (self.vertex(vertex), self.collection(set));
+        vertex.zip(to).map(|(vertex, (id, ty))| match ty {
+            Type::Ring => StmtKind::Append { vertex, ring: id },
+            _ => StmtKind::Add { vertex, set: id },
+        })
     }
 
     fn merged(&mut self, set: &'a tree::Expr, other: &'a tree::Expr) -> Option<Expr> {
@@ -209,7 +238,7 @@ impl<'a> Checker<'a> {
         for d in &declaration.declarators {
             // The name is visible only after its first value.
             let init = d.init.as_ref().map(|init| match ty {
-                Some(Type::Mesh) => self.mesh(init),
+                Some(ty @ (Type::Mesh | Type::Ring)) => self.whole(init, ty),
                 Some(Type::Value(ty)) => {
                     let value = if ty == ValueType::Vertex { self.expression(init) } else { self.value(init) };
                     value.and_then(|value| match value.ty {
@@ -283,8 +312,9 @@ impl<'a> Checker<'a> {
             };
             self.report(error);
         }
-        // A mesh without effect is of no use to engines.
-        (checked.ty != Type::Mesh || has_effect(&checked)).then_some(StmtKind::Expr(checked))
+        // A mesh or ring without effect is of no use to engines.
+        let useless = matches!(checked.ty, Type::Mesh | Type::Ring) && !has_effect(&checked);
+        (!useless).then_some(StmtKind::Expr(checked))
     }
 
     /// `Some(None)` is a return without a value.
@@ -305,12 +335,12 @@ impl<'a> Checker<'a> {
                         .label(promised, "to return a value, name its type here instead of `void`"),
                 )
             }
-            (Some(value), Type::Mesh) => self.mesh(value).map(Some),
+            (Some(value), Type::Mesh | Type::Ring) => self.whole(value, returns).map(Some),
             (Some(value), Type::Value(ty)) => {
                 let value = self.expression(value)?;
                 match value.ty {
                     Type::Value(_) => self.implicitly(value, ty).map(Some),
-                    Type::Mesh | Type::Void => self.mismatch(&value, returns),
+                    Type::Mesh | Type::Ring | Type::Void => self.mismatch(&value, returns),
                 }
             }
         }
@@ -372,26 +402,83 @@ impl<'a> Checker<'a> {
         falls_through
     }
 
-    fn forall(&mut self, variable: &'a tree::Name, over: &'a tree::Expr, body: &'a tree::Stmt) -> Option<StmtKind> {
-        let domain = self.domain(over, None);
-        self.open_scope();
-        let new = NewLocal {
-            name: &variable.text,
-            span: variable.span,
-            ty: Some(VERTEX),
-            role: Role::Forall,
-            is_const: false,
+    fn forall(&mut self, forall: &'a tree::Forall) -> Option<StmtKind> {
+        let tree::Forall { variable, follower, faces, over, from, body } = forall;
+        let domain = match faces {
+            Some(_) => self.faces_of(over).map(Walked::Faces),
+            None => self.domain(over, None).map(|domain| match domain {
+                Domain::Set(set) => Walked::Set(set),
+                Domain::Ring(ring) => Walked::Ring(ring),
+            }),
         };
-        let local = self.declare(new);
+        let from = from.as_ref().map(|f| (f, self.vertex(&f.corner), f.next.as_ref().map(|next| self.vertex(next))));
+        self.open_scope();
+        let (ty, role) = if faces.is_some() { (Type::Ring, Role::Face) } else { (VERTEX, Role::Forall) };
+        let new = |name: &'a tree::Name| NewLocal {
+            name: &name.text,
+            span: name.span,
+            ty: Some(ty),
+            role,
+            is_const: role == Role::Face,
+        };
+        let local = self.declare(new(variable));
+        let second = follower.as_ref().map(|name| self.declare(new(name)));
         self.body.loops += 1;
         let (body, _) = self.inner(body);
         self.body.loops -= 1;
         self.close_scope();
-        Some(match domain? {
-            Domain::Set(set) => StmtKind::ForallSet { local, set, body },
-            Domain::Ring(ring) => StmtKind::ForallRing { local, ring, body },
+        let from = match from {
+            Some((tree, corner, next)) => {
+                let next = next.map_or(Some(None), |next| next.map(Some));
+                Some((tree.corner.span, ir::From { corner: corner?, next: next? }))
+            }
+            None => None,
+        };
+        let domain = domain?;
+        if !matches!(domain, Walked::Ring(_)) {
+            let set = self.text(over.span);
+            let walked = if faces.is_some() { "faces" } else { "the members" };
+            if let Some(name) = follower {
+                let error = Diagnostic::error(name.span, format!("{walked} of a mesh do not follow each other round"));
+                return self.fail(
+                    error.hint(format!("pairs are those of a face: `forall f in faces {set} forall p, q in f …`")),
+                );
+            }
+            if let Some((span, _)) = from {
+                let error = Diagnostic::error(
+                    span,
+                    format!("{walked} of a mesh do not go round, so there is nowhere to begin"),
+                );
+                return self.fail(error.hint("`from` says where a loop round a ring or face begins"));
+            }
+        }
+        Some(match domain {
+            Walked::Set(set) => StmtKind::ForallSet { local, set, body },
+            Walked::Faces(set) => StmtKind::ForallFaces { local, set, body },
+            Walked::Ring(ring) => {
+                StmtKind::ForallRing { local, follower: second, ring, from: from.map(|(_, from)| from), body }
+            }
         })
     }
+
+    /// The mesh whose faces are walked.
+    fn faces_of(&mut self, e: &'a tree::Expr) -> Option<Expr> {
+        let found = self.expression(e)?;
+        if found.ty == VERTEX {
+            let text = self.text(e.span);
+            let error = Diagnostic::error(e.span, "this is a `vertex`, and faces are those of a mesh");
+            return self
+                .fail(error.hint(format!("the corners of the faces around a vertex are `forall a, b in {text}`")));
+        }
+        if found.ty == Type::Mesh { Some(found) } else { self.mismatch(&found, Type::Mesh) }
+    }
+}
+
+/// What a `forall` walks.
+enum Walked {
+    Set(Expr),
+    Faces(Expr),
+    Ring(Ring),
 }
 
 /// What a loop's body does to the loop.

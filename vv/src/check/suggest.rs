@@ -49,7 +49,8 @@ impl<'a> Checker<'a> {
             Wanted::Vertex { except } => {
                 let ty = self.body.local(id).map(|l| l.ty);
                 let vertex = Type::Value(mesh::Type::Vertex);
-                (ty == Some(vertex) || ty == Some(Type::Mesh)) && self.body.name(id) != except.unwrap_or("")
+                (ty == Some(vertex) || ty == Some(Type::Mesh) || ty == Some(Type::Ring))
+                    && self.body.name(id) != except.unwrap_or("")
             }
         };
         let locals = visible.iter().copied().filter(usable).filter_map(|id| Some(self.body.local(id)?.name.clone()));

@@ -10,7 +10,10 @@ mod fault;
 mod old;
 mod origin;
 mod place;
+mod ring;
 mod statement;
+
+use std::rc::Rc;
 
 use super::{Failure, FailureKind, Output, OutputClosed, Settings};
 use crate::builtins::Random;
@@ -23,6 +26,7 @@ pub(super) use fault::with_calls;
 use fault::{Fault, Run};
 use old::Old;
 use origin::Trace;
+use ring::List;
 
 /// Native stack that a call may need before it calls again: the parser lets statements and expressions nest 200 deep
 /// each, and a level takes up to 5 KB without optimization.
@@ -95,11 +99,14 @@ fn attempt(
         base: 0,
         sets: vec![Set { members, properties }],
         walked: Vec::new(),
+        rings: Vec::new(),
+        walked_faces: 0,
         neighbours: Vec::new(),
         items: Vec::new(),
         frames: Vec::new(),
         returned: Value::Bool(false),
         returned_set: None,
+        returned_ring: None,
         random: Random::new(settings.seed, generation),
         line: String::new(),
         printed: 0,
@@ -137,6 +144,8 @@ enum Slot {
     Reference(usize),
     /// Index into `sets`.
     Set(usize),
+    /// Index into `rings`.
+    Ring(usize),
 }
 
 /// A variable of type mesh.
@@ -145,6 +154,14 @@ struct Set {
     members: VertexSet,
     /// Values of the program's mesh properties.
     properties: Vec<Value>,
+}
+
+/// How many variables lie where.
+#[derive(Debug, Clone, Copy)]
+struct Heights {
+    stack: usize,
+    sets: usize,
+    rings: usize,
 }
 
 /// An open call.
@@ -179,14 +196,19 @@ struct Machine<'a> {
     sets: Vec<Set>,
     /// Sets that `forall`s walk, for the account of memory.
     walked: Vec<VertexSet>,
+    /// Ring variables of all open calls.
+    rings: Vec<List>,
+    /// Bytes of the faces that `forall`s walk.
+    walked_faces: usize,
     /// Rings that `forall`s walk, one after the other.
-    neighbours: Vec<Vertex>,
+    neighbours: Vec<Option<Vertex>>,
     /// Items of a `make`.
     items: Vec<Option<Vertex>>,
     frames: Vec<Frame<'a>>,
     /// What a `return` carries to its call.
     returned: Value,
     returned_set: Option<Set>,
+    returned_ring: Option<List>,
     random: Random,
     /// What `print` writes to.
     line: String,
@@ -201,7 +223,7 @@ impl<'a> Machine<'a> {
         self.compute_globals()?;
         if let Some(function) = self.program.function(function) {
             self.stack.push(Slot::Set(0));
-            self.open(function, None, 0, 1)?;
+            self.open(function, None, Heights { stack: 0, sets: 1, rings: 0 })?;
         }
         let mut mesh = self.mesh;
         if let Some(set) = self.sets.into_iter().next() {
@@ -228,14 +250,21 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    /// Runs a function whose arguments lie on the stack from `base` on; takes them and all variables off again. `sets`
-    /// is how many mesh variables there were before the arguments.
-    fn open(&mut self, function: &'a Function, call: Option<Span>, base: usize, sets: usize) -> Run<Value> {
+    /// How much there is of everything.
+    fn heights(&self) -> Heights {
+        Heights { stack: self.stack.len(), sets: self.sets.len(), rings: self.rings.len() }
+    }
+
+    /// Runs a function whose arguments lie on the stack; takes them and all variables off again, down to what there was
+    /// before the arguments.
+    fn open(&mut self, function: &'a Function, call: Option<Span>, before: Heights) -> Run<Value> {
+        let base = before.stack;
         let caller = std::mem::replace(&mut self.base, base);
         self.frames.push(Frame { function, call });
         for local in function.locals.iter().skip(self.stack.len() - base) {
             let slot = match local.ty {
                 Type::Mesh => self.new_set(VertexSet::default()),
+                Type::Ring => self.new_ring(List::default()),
                 Type::Value(ty) => Slot::Value(Value::zero(ty)),
                 Type::Void => Slot::Value(Value::Bool(false)),
             };
@@ -245,7 +274,8 @@ impl<'a> Machine<'a> {
         stacker::maybe_grow(RED_ZONE, STACK_SEGMENT, || self.block(&function.body))?;
         self.frames.pop();
         self.stack.truncate(base);
-        self.sets.truncate(sets);
+        self.sets.truncate(before.sets);
+        self.rings.truncate(before.rings);
         self.base = caller;
         Ok(self.returned)
     }
@@ -334,6 +364,8 @@ impl<'a> Machine<'a> {
             + self.old.bytes()
             + self.set_bytes()
             + self.stack.capacity() * size_of::<Slot>()
+            + self.ring_bytes()
+            + self.walked_faces
             + self.neighbours.capacity() * size_of::<Vertex>()
             + self.printed
     }
@@ -344,6 +376,14 @@ impl<'a> Machine<'a> {
         sets.sort_unstable_by_key(|s| s.identity());
         sets.dedup_by_key(|s| s.identity());
         sets.iter().map(|s| s.bytes()).sum::<usize>() + self.sets.len() * size_of::<Set>()
+    }
+
+    /// Bytes of all ring variables, those that share their vertices counted once.
+    fn ring_bytes(&self) -> usize {
+        let mut rings: Vec<_> = self.rings.iter().map(|r| (Rc::as_ptr(r), r.capacity())).collect();
+        rings.sort_unstable();
+        rings.dedup();
+        rings.iter().map(|(_, n)| n * size_of::<Vertex>()).sum::<usize>() + self.rings.len() * size_of::<List>()
     }
 
     fn fail(&self, span: Span, message: impl Into<String>) -> Box<Fault> {

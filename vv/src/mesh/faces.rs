@@ -16,7 +16,7 @@
 //! φ = r ψ⁻¹ r: the orbits of φ are those of ψ with every edge reversed, in reversed order. ∎
 
 use super::twins::{NONE, Twins};
-use super::{Mesh, Vertex};
+use super::{Mesh, Vertex, VertexSet};
 use crate::stop::{Stop, Stopped};
 
 /// The polygons of a mesh, flat: all corners one after the other.
@@ -53,6 +53,12 @@ impl Faces {
         (0..self.len()).map(|i| self.get(i))
     }
 
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.corners.capacity() * size_of::<Vertex>() + self.ends.capacity() * size_of::<u32>()
+    }
+
     /// All corners of all faces.
     #[must_use]
     pub fn corners(&self) -> &[Vertex] {
@@ -60,7 +66,15 @@ impl Faces {
     }
 }
 
-/// The faces of the set of `mesh`: the orbits that meet no gap and no incomplete neighbour, which is one that does not
+/// The faces of the set of `mesh`, see [`faces_of`].
+///
+/// # Errors
+/// When stopped.
+pub fn faces(mesh: &Mesh, stop: &Stop) -> Result<Faces, Stopped> {
+    faces_of(mesh, &mesh.set, stop)
+}
+
+/// The faces of a set of vertices: the orbits that meet no gap and no incomplete neighbour, which is one that does not
 /// name the vertex that names it, or stands outside the set. An edge that is a component by itself, `{q}` at p and
 /// `{p}` at q, has one orbit of two corners; it counts, so that V − E + F = 2 holds there too. A vertex without
 /// neighbours has none.
@@ -74,8 +88,8 @@ impl Faces {
 ///
 /// # Errors
 /// When stopped.
-pub fn faces(mesh: &Mesh, stop: &Stop) -> Result<Faces, Stopped> {
-    let links = Twins::new(mesh, stop)?;
+pub fn faces_of(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<Faces, Stopped> {
+    let links = Twins::new(mesh, set, stop)?;
     let mut faces = Faces::default();
     let mut visited = vec![false; links.targets.len()];
     let mut first = vec![NONE; mesh.vertex_count()]; // the slot at which the first face leaves the vertex

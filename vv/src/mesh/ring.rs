@@ -29,6 +29,11 @@ pub enum EditError {
 pub struct Ring<'a>(&'a [Option<Vertex>]);
 
 impl<'a> Ring<'a> {
+    /// A list that is no vertex' ring, without gaps. A vertex may stand in it more than once; the first is found.
+    pub(crate) fn new(list: &'a [Option<Vertex>]) -> Self {
+        Self(list)
+    }
+
     /// The list itself, gaps included, from its start.
     #[must_use]
     pub fn slots(self) -> &'a [Option<Vertex>] {

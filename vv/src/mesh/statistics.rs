@@ -42,7 +42,7 @@ pub struct Statistics {
 /// When stopped.
 pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics, Stopped> {
     let valid = validate::validate(mesh, stop)?.is_empty();
-    let links = Twins::new(mesh, stop)?;
+    let links = Twins::new(mesh, &mesh.set, stop)?;
     let member = validate::membership(mesh);
     let members = || mesh.vertices().filter(|v| member[v.index()]);
     let mut half_edges = 0; // ends of edges that both name

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Mesh, Vertex};
+use super::{Mesh, Vertex, VertexSet};
 use crate::stop::{Stop, Stopped};
 
 /// Rings up to this long are searched by going through them; longer ones have an index.
@@ -57,10 +57,10 @@ pub(super) struct Twins {
 
 impl Twins {
     /// O(slots), but O(log valence) more in rings longer than some sixty.
-    pub(super) fn new(mesh: &Mesh, stop: &Stop) -> Result<Self, Stopped> {
+    pub(super) fn new(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<Self, Stopped> {
         let n = mesh.vertex_count();
         let mut member = vec![false; n];
-        for v in mesh.set.iter().filter(|v| v.index() < n) {
+        for v in set.iter().filter(|v| v.index() < n) {
             member[v.index()] = true;
         }
         let mut starts = Vec::with_capacity(n + 1);

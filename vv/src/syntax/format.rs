@@ -154,9 +154,8 @@ impl<'t> Outline<'t> {
                     self.body(otherwise, owner);
                 }
             }
-            StmtKind::While { body, .. } | StmtKind::For { body, .. } | StmtKind::Forall { body, .. } => {
-                self.body(body, owner);
-            }
+            StmtKind::While { body, .. } | StmtKind::For { body, .. } => self.body(body, owner),
+            StmtKind::Forall(forall) => self.body(&forall.body, owner),
             StmtKind::DoWhile { body, .. } => {
                 self.body(body, owner);
                 let after = self.index(body.span.end);

@@ -479,6 +479,13 @@ impl<'t> Parser<'t> {
         None
     }
 
+    /// The token behind the `}` for a `{` in the same statement, or where the statement ends.
+    fn behind_braces(&self, open: usize) -> usize {
+        let ends = |at: usize| matches!(self.kind_at(at), Kind::CloseBrace | Kind::Semicolon | Kind::End);
+        let end = (open..self.tokens.len()).find(|&at| ends(at)).unwrap_or(open);
+        if self.kind_at(end) == Kind::CloseBrace { end + 1 } else { end }
+    }
+
     fn call(kind: TypeKind, span: Span, arguments: Vec<Expr>) -> ExprKind {
         ExprKind::Call { callee: Name { text: words::name(kind).to_owned(), span }, arguments }
     }

@@ -86,6 +86,7 @@ pub enum TypeKind {
     Vec,
     Vertex,
     Mesh,
+    Ring,
 }
 
 /// `[static] type name(parameters) { … }`
@@ -195,8 +196,8 @@ pub enum StmtKind {
     DoWhile { body: Box<Stmt>, condition: Expr },
     /// `for (init; condition; update) body`; `init` is a declaration, an expression or empty.
     For { init: Option<Box<Stmt>>, condition: Option<Expr>, update: Vec<Expr>, body: Box<Stmt> },
-    /// ``forall variable in over body``; over a set, a ring `v` or an old ring `` `v ``.
-    Forall { variable: Name, over: Expr, body: Box<Stmt> },
+    /// `forall …`
+    Forall(Box<Forall>),
     /// `break;`
     Break,
     /// `continue;`
@@ -205,6 +206,8 @@ pub enum StmtKind {
     Return(Option<Expr>),
     /// `make {items} nb_of of;`
     Make { items: Vec<Expr>, of: Expr },
+    /// `make ring nb_of of;`
+    MakeRing { ring: Expr, of: Expr },
     /// `erase item from from;`
     Erase { item: Expr, from: Expr },
     /// `replace item with with in ring;`
@@ -213,7 +216,7 @@ pub enum StmtKind {
     Splice { item: Expr, side: Side, anchor: Expr, ring: Expr },
     /// `synchronize set;`
     Synchronize(Expr),
-    /// `add vertex to set;`
+    /// `add vertex to set;`; to a set or to the end of a ring
     Add { vertex: Expr, set: Expr },
     /// `remove vertex from set;`
     Remove { vertex: Expr, set: Expr },
@@ -221,6 +224,33 @@ pub enum StmtKind {
     Merge { set: Expr, other: Expr },
     /// `print a, "b", c;` and `print(a, "b", c);`
     Print(Vec<Expr>),
+}
+
+/// ``forall variable, follower in faces over from corner, next body``; which of these parts go together the checker
+/// says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forall {
+    /// The loop's variable.
+    pub variable: Name,
+    /// Follows the variable round a ring.
+    pub follower: Option<Name>,
+    /// The word `faces`.
+    pub faces: Option<Span>,
+    /// A set, a ring `v` or `r`, or an old ring `` `v ``.
+    pub over: Expr,
+    /// Where the round begins.
+    pub from: Option<From>,
+    /// Each time round.
+    pub body: Stmt,
+}
+
+/// `from corner, next`
+#[derive(Debug, Clone, PartialEq)]
+pub struct From {
+    /// Where to begin.
+    pub corner: Expr,
+    /// What must follow it.
+    pub next: Option<Expr>,
 }
 
 /// Where `splice` puts its vertex.

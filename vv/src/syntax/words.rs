@@ -18,6 +18,9 @@ pub(super) const PREFIXES: &[&str] = &["nextto", "prevto", "is", "valence", "gap
 /// Words of the algebra between operands.
 pub(super) const INFIXES: &[&str] = &["in", "to", "from", "with", "after", "before", "nb_of"];
 
+/// Stands before the set whose faces a `forall` walks.
+pub(super) const FACES: &str = "faces";
+
 /// Words that begin a statement wherever they begin a line.
 const LEADING: &[&str] =
     &["if", "else", "while", "for", "do", "break", "continue", "return", "const", "static", "forall"];
@@ -39,6 +42,7 @@ pub(super) fn reserved_type(word: &str) -> Option<TypeKind> {
 pub(super) fn any_type(word: &str) -> Option<TypeKind> {
     match word {
         "vec" | "point" | "vector" => Some(TypeKind::Vec),
+        "ring" => Some(TypeKind::Ring),
         _ => reserved_type(word),
     }
 }
@@ -53,6 +57,7 @@ pub(super) fn name(ty: TypeKind) -> &'static str {
         TypeKind::Vec => "vec",
         TypeKind::Vertex => "vertex",
         TypeKind::Mesh => "mesh",
+        TypeKind::Ring => "ring",
     }
 }
 
@@ -117,6 +122,7 @@ pub(super) fn foreign_type(word: &str) -> Option<(&'static str, Option<TypeKind>
         "vec3" | "Vec3" | "dvec3" | "Vector3d" | "Point" | "Vector" | "Vec" => ("vec", Some(TypeKind::Vec)),
         "Vertex" | "node" => ("vertex", Some(TypeKind::Vertex)),
         "Mesh" | "set" => ("mesh", Some(TypeKind::Mesh)),
+        "Ring" | "polygon" | "Polygon" | "Face" => ("ring", Some(TypeKind::Ring)),
         "auto" | "var" | "let" => ("the type itself", None),
         _ => return None,
     })

@@ -28,7 +28,7 @@ pub fn run(
     output: &mut dyn Output,
 ) -> Result<Mesh, Failure> {
     let native = Machine::new(Arc::new(program.clone()), Engine::Native);
-    assert_eq!(native.refusal(), None);
+    check_refusal(&native);
     match compare(program, &native, function, mesh, generation, settings) {
         Ok((result, lines)) => {
             for line in lines {
@@ -37,6 +37,14 @@ pub fn run(
             result
         }
         Err(difference) => panic!("{difference}"),
+    }
+}
+
+/// Only what is not compiled yet is refused.
+#[track_caller]
+fn check_refusal(native: &Machine) {
+    if let Some(why) = native.refusal() {
+        assert!(why.ends_with("rings and faces are not compiled yet"), "{why}");
     }
 }
 
@@ -146,7 +154,7 @@ fn the_assets_run_the_same() {
     for path in assets("programs", "vv") {
         let program = compile_file(&path);
         let native = Machine::new(Arc::clone(&program), Engine::Native);
-        assert_eq!(native.refusal(), None, "{}", path.display());
+        check_refusal(&native);
         for (name, mesh) in &meshes {
             let mut mesh = mesh.clone();
             let rules = program.rules.iter().flat_map(|&r| [(r, 1), (r, 2)]);

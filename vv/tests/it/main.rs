@@ -13,7 +13,6 @@ mod manual;
 mod mesh;
 mod rings;
 mod run;
-mod schemes;
 mod shapes;
 
 mod architecture;

@@ -7,6 +7,7 @@ mod algebra;
 mod boundary;
 mod budgets;
 mod errors;
+mod faces;
 mod functions;
 pub mod generated;
 mod loops;

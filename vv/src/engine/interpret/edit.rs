@@ -1,8 +1,11 @@
 //! Edits of rings.
 
+use std::rc::Rc;
+
 use super::fault::{Fault, Run};
+use super::ring::Source;
 use super::{FailureKind, Machine};
-use crate::ir::{Expr, Item, Side};
+use crate::ir::{Expr, Item, LocalId, Ring, Side};
 use crate::mesh::{EditError, Vertex};
 use crate::source::Span;
 
@@ -25,18 +28,40 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    pub(super) fn erase(&mut self, item: &'a Item, from: &'a Expr) -> Run<()> {
+    pub(super) fn make_ring(&mut self, ring: LocalId, of: &'a Expr, span: Span) -> Run<()> {
+        let v = self.not_null(of, NO_RING)?;
+        let list = Rc::clone(&self.rings[self.ring_index(ring)]);
+        self.account(8 * list.len(), span)?;
+        self.mesh.make(v, &list).map_err(|error| self.fail_to_make(error, v, &[], &list, span))
+    }
+
+    pub(super) fn erase(&mut self, item: &'a Item, from: &'a Ring) -> Run<()> {
         let x = self.sought(item)?;
-        let v = self.not_null(from, NO_RING)?;
-        self.mesh.erase(x, v);
+        match self.source(from)? {
+            Source::Of { v, .. } => self.mesh.erase(x, v),
+            source @ Source::Variable { index, .. } => {
+                if let Some(at) = self.ring(source).find(x) {
+                    self.edit_list(index, from.span())?.remove(at);
+                }
+            }
+        }
         Ok(())
     }
 
-    pub(super) fn replace(&mut self, item: &'a Item, with: &'a Item, ring: &'a Expr, span: Span) -> Run<()> {
+    pub(super) fn replace(&mut self, item: &'a Item, with: &'a Item, ring: &'a Ring, span: Span) -> Run<()> {
         let a = self.sought(item)?;
-        let x = self.put(with)?;
-        let v = self.not_null(ring, NO_RING)?;
-        self.mesh.replace(a, x, v).map_err(|error| self.fail_to_edit(error, v, x, item_span(with, span)))
+        let x = self.put_in(with, ring)?;
+        match self.source(ring)? {
+            Source::Of { v, .. } => {
+                self.mesh.replace(a, x, v).map_err(|error| self.fail_to_edit(error, v, x, item_span(with, span)))
+            }
+            source @ Source::Variable { index, .. } => {
+                if let Some(at) = self.ring(source).find(a) {
+                    self.edit_list(index, span)?[at] = x;
+                }
+                Ok(())
+            }
+        }
     }
 
     pub(super) fn splice(
@@ -44,19 +69,42 @@ impl<'a> Machine<'a> {
         item: &'a Item,
         side: Side,
         anchor: &'a Item,
-        ring: &'a Expr,
+        ring: &'a Ring,
         span: Span,
     ) -> Run<()> {
-        let x = self.put(item)?;
+        let x = self.put_in(item, ring)?;
         let a = self.sought(anchor)?;
-        let v = self.not_null(ring, NO_RING)?;
-        // A ring that outgrows its room moves to one of twice the size.
-        self.account(16, span)?;
-        let result = match side {
-            Side::After => self.mesh.splice_after(x, a, v),
-            Side::Before => self.mesh.splice_before(x, a, v),
-        };
-        result.map_err(|error| self.fail_to_edit(error, v, x, item_span(item, span)))
+        match self.source(ring)? {
+            Source::Of { v, .. } => {
+                // A ring that outgrows its room moves to one of twice the size.
+                self.account(16, span)?;
+                let result = match side {
+                    Side::After => self.mesh.splice_after(x, a, v),
+                    Side::Before => self.mesh.splice_before(x, a, v),
+                };
+                result.map_err(|error| self.fail_to_edit(error, v, x, item_span(item, span)))
+            }
+            source @ Source::Variable { index, .. } => {
+                if let Some(at) = self.ring(source).find(a) {
+                    let list = self.edit_list(index, span)?;
+                    let at = match side {
+                        Side::After => at + 1,
+                        Side::Before if at == 0 => list.len(),
+                        Side::Before => at,
+                    };
+                    list.insert(at, x);
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// What is put into a ring; only that of a vertex takes a gap.
+    fn put_in(&mut self, item: &'a Item, ring: &'a Ring) -> Run<Option<Vertex>> {
+        match (item, ring) {
+            (Item::Vertex(e), Ring::Variable { .. }) => self.not_null(e, "null cannot be put into a ring").map(Some),
+            _ => self.put(item),
+        }
     }
 
     #[cold]

@@ -8,7 +8,7 @@ use crate::builtins::Builtin;
 use crate::engine::{FailureKind, text};
 use crate::ir::arithmetic::{ArithmeticError, binary, convert, unary};
 use crate::ir::{Argument, Compound, Expr, ExprKind, FunctionId, Item, LocalId, Place, Ring, Step, StepPosition, Type};
-use crate::mesh::{self, Value, Vertex};
+use crate::mesh::{Value, Vertex};
 use crate::source::Span;
 
 impl<'a> Machine<'a> {
@@ -57,10 +57,15 @@ impl<'a> Machine<'a> {
                 Ok(Value::Bool(false))
             }
             ExprKind::Create => self.create(e.span),
+            ExprKind::AssignRing(local, value) => {
+                let list = self.list(value)?;
+                self.set_ring(*local, list, e.span)?;
+                Ok(Value::Bool(false))
+            }
             ExprKind::Any(ring) => {
-                let v = self.ring_owner(ring)?;
-                match self.ring(v, ring.old).any() {
-                    None => Ok(self.null(e.span, |_| Reason::Empty { v, old: ring.old })),
+                let source = self.source(ring)?;
+                match self.ring(source).any() {
+                    None => Ok(self.null(e.span, |machine| Reason::Empty { ring: machine.whose(source) })),
                     x => Ok(Value::Vertex(x)),
                 }
             }
@@ -68,8 +73,8 @@ impl<'a> Machine<'a> {
             ExprKind::Previous(item, ring) => self.look_up(item, ring, false, e.span),
             ExprKind::IsInRing(item, ring) => {
                 let x = self.sought(item)?;
-                let v = self.ring_owner(ring)?;
-                Ok(Value::Bool(self.ring(v, ring.old).contains(x)))
+                let source = self.source(ring)?;
+                Ok(Value::Bool(self.ring(source).contains(x)))
             }
             ExprKind::IsInSet(vertex, set) => {
                 let v = self.vertex(vertex)?;
@@ -77,12 +82,12 @@ impl<'a> Machine<'a> {
                 Ok(Value::Bool(v.is_some_and(|v| members.contains(v))))
             }
             ExprKind::Valence(ring) => {
-                let v = self.ring_owner(ring)?;
-                Ok(Value::Int(self.ring(v, ring.old).valence() as i64))
+                let source = self.source(ring)?;
+                Ok(Value::Int(self.ring(source).valence() as i64))
             }
             ExprKind::Gaps(ring) => {
-                let v = self.ring_owner(ring)?;
-                Ok(Value::Int(self.ring(v, ring.old).gaps() as i64))
+                let source = self.source(ring)?;
+                Ok(Value::Int(self.ring(source).gaps() as i64))
             }
         }
     }
@@ -130,7 +135,7 @@ impl<'a> Machine<'a> {
         value
     }
 
-    fn call(&mut self, id: FunctionId, arguments: &'a [Argument], span: Span) -> Run<Value> {
+    pub(super) fn call(&mut self, id: FunctionId, arguments: &'a [Argument], span: Span) -> Run<Value> {
         let Some(function) = self.program.function(id) else { return Ok(Value::Bool(false)) };
         self.poll(span)?;
         let max = self.settings.limits.max_call_depth;
@@ -140,8 +145,7 @@ impl<'a> Machine<'a> {
             let hint = format!("does `{}` ever end without calling itself again?", function.name);
             return Err(self.fail_with(FailureKind::Budget, span, message).hint(hint));
         }
-        let base = self.stack.len();
-        let sets = self.sets.len();
+        let before = self.heights();
         for argument in arguments {
             let slot = match argument {
                 Argument::Value(e) if e.ty == Type::Mesh => {
@@ -150,11 +154,16 @@ impl<'a> Machine<'a> {
                     self.sets.push(set);
                     Slot::Set(self.sets.len() - 1)
                 }
+                Argument::Value(e) if e.ty == Type::Ring => {
+                    let list = self.list(e)?;
+                    self.account(size_of::<Vertex>() * list.len(), span)?;
+                    self.new_ring(list)
+                }
                 Argument::Value(e) => Slot::Value(self.eval(e)?),
                 Argument::Reference(local) => {
                     let address = self.address(*local);
                     match self.stack[address] {
-                        set @ Slot::Set(_) => set,
+                        whole @ (Slot::Set(_) | Slot::Ring(_)) => whole,
                         _ => Slot::Reference(address),
                     }
                 }
@@ -165,7 +174,7 @@ impl<'a> Machine<'a> {
             self.stack.push(slot);
         }
         self.account(function.locals.len() * size_of::<Slot>(), span)?;
-        self.open(function, Some(span), base, sets)
+        self.open(function, Some(span), before)
     }
 
     fn builtin(&mut self, builtin: Builtin, arguments: &'a [Expr], span: Span) -> Run<Value> {
@@ -227,31 +236,16 @@ impl<'a> Machine<'a> {
 
     fn look_up(&mut self, item: &'a Item, ring: &'a Ring, forward: bool, span: Span) -> Run<Value> {
         let x = self.sought(item)?;
-        let v = self.ring_owner(ring)?;
-        let slots = self.ring(v, ring.old);
+        let source = self.source(ring)?;
+        let slots = self.ring(source);
         let found = if forward { slots.next(x) } else { slots.previous(x) };
         if let Some(Some(y)) = found {
             return Ok(Value::Vertex(Some(y)));
         }
         Ok(self.null(span, |machine| {
-            let shown = text::ring(machine.ring(v, ring.old), x);
-            Reason::Lookup { x, v, found: found.is_some(), forward, old: ring.old, ring: shown }
+            let shown = text::ring(machine.ring(source), x);
+            Reason::Lookup { x, ring: machine.whose(source), found: found.is_some(), forward, shown }
         }))
-    }
-
-    /// The vertex whose ring is meant.
-    #[inline]
-    pub(super) fn ring_owner(&mut self, ring: &'a Ring) -> Run<Vertex> {
-        let v = self.not_null(&ring.vertex, "null has no neighbours")?;
-        if ring.old && !self.old.holds(v) {
-            return Err(self.fail_on_old(v, ring.vertex.span));
-        }
-        Ok(v)
-    }
-
-    #[inline]
-    pub(super) fn ring(&self, v: Vertex, old: bool) -> mesh::Ring<'_> {
-        if old { self.old.mesh.ring(v) } else { self.mesh.ring(v) }
     }
 
     /// An expression of type vertex that may not be null.

@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::fault::Fault;
 use super::place::Target;
+use super::ring::Source;
 use super::{FailureKind, Machine};
 use crate::engine::text;
 use crate::mesh::{Value, Vertex};
@@ -36,14 +37,30 @@ pub(super) enum Reason {
     /// A variable declared without a value.
     Declared,
     /// `any in v`
-    Empty { v: Vertex, old: bool },
-    /// A look-up that found a gap beside x, or that did not find x.
-    Lookup { x: Option<Vertex>, v: Vertex, found: bool, forward: bool, old: bool, ring: String },
+    Empty { ring: Whose },
+    /// A look-up that found a gap beside x, or that did not find x. `shown` is the ring.
+    Lookup { x: Option<Vertex>, ring: Whose, found: bool, forward: bool, shown: String },
     /// Read from there, where it was not stored in this step.
     Held { target: Target },
 }
 
+/// Where a null was found.
+pub(super) struct Whose {
+    /// As messages call it.
+    name: String,
+    /// Of a vertex, and whether its old ring.
+    vertex: Option<(Vertex, bool)>,
+}
+
 impl Machine<'_> {
+    pub(super) fn whose(&self, source: Source) -> Whose {
+        let vertex = match source {
+            Source::Of { v, old } => Some((v, old)),
+            Source::Variable { .. } => None,
+        };
+        Whose { name: self.ring_name(source), vertex }
+    }
+
     /// The null value, with its origin if origins are wanted.
     #[inline]
     pub(super) fn null(&mut self, span: Span, reason: impl FnOnce(&Self) -> Reason) -> Value {
@@ -89,15 +106,21 @@ impl Machine<'_> {
         match &origin.reason {
             Reason::Written => fault.label(origin.span, "null is written here"),
             Reason::Declared => fault.label(origin.span, format!("`{code}` is declared here without a vertex")),
-            Reason::Empty { v, old } => {
-                let ring = ring_name(*old, *v);
-                fault
-                    .label(origin.span, format!("`{code}` is null here: {v} has no neighbours"))
-                    .about([*v])
-                    .evidence(format!("{ring}: empty"))
+            Reason::Empty { ring: Whose { name, vertex: Some((v, _)) } } => fault
+                .label(origin.span, format!("`{code}` is null here: {v} has no neighbours"))
+                .about([*v])
+                .evidence(format!("{name}: empty")),
+            Reason::Empty { ring: Whose { name, vertex: None } } => {
+                fault.label(origin.span, format!("`{code}` is null here: `{name}` is empty"))
             }
-            Reason::Lookup { x, v, found, forward, old, ring } => {
-                let name = ring_name(*old, *v);
+            Reason::Lookup { x, ring: Whose { name, vertex: None }, shown, .. } => {
+                let sought = x.map_or_else(|| "null".to_owned(), |x| x.to_string());
+                fault
+                    .label(origin.span, format!("`{code}` is null here: {sought} is not in `{name}`"))
+                    .evidence(format!("{name}: {shown}"))
+                    .about(*x)
+            }
+            Reason::Lookup { x, ring: Whose { name, vertex: Some((v, old)) }, found, forward, shown } => {
                 let why = match (x, found) {
                     (None, _) => format!("the {name} has no gap"),
                     (Some(x), false) => format!("{x} is not in the {name}"),
@@ -106,7 +129,7 @@ impl Machine<'_> {
                 };
                 let mut fault = fault
                     .label(origin.span, format!("`{code}` is null here: {why}"))
-                    .evidence(format!("{name}: {ring}"))
+                    .evidence(format!("{name}: {shown}"))
                     .about(std::iter::once(*v).chain(*x));
                 if *found {
                     fault = fault.hint(format!("{v} lies on a boundary: test `{code} == null` first"));
@@ -176,8 +199,4 @@ fn without_parentheses(text: &str) -> &str {
         }
     }
     inner
-}
-
-fn ring_name(old: bool, v: Vertex) -> String {
-    format!("{}ring of {v}", if old { "old " } else { "" })
 }

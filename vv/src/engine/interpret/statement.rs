@@ -3,10 +3,11 @@
 use super::fault::Run;
 use super::origin::Reason;
 use super::place::Target;
+use super::ring::List;
 use super::{Flow, Machine, POLL_STRIDE};
 use crate::engine::{FailureKind, text};
-use crate::ir::{Expr, LocalId, PrintItem, Ring, Stmt, StmtKind, Type};
-use crate::mesh::{Value, VertexSet};
+use crate::ir::{Expr, LocalId, PrintItem, Stmt, StmtKind, Type};
+use crate::mesh::{Value, Vertex, VertexSet};
 use crate::source::Span;
 
 impl<'a> Machine<'a> {
@@ -25,18 +26,23 @@ impl<'a> Machine<'a> {
                 return self.repeat(condition.as_ref(), body, update, *body_first, s.span);
             }
             StmtKind::ForallSet { local, set, body } => return self.for_set(*local, set, body),
-            StmtKind::ForallRing { local, ring, body } => return self.for_ring(*local, ring, body),
+            StmtKind::ForallRing { local, follower, ring, from, body } => {
+                return self.for_ring(*local, *follower, ring, from.as_ref(), body);
+            }
+            StmtKind::ForallFaces { local, set, body } => return self.for_faces(*local, set, body),
             StmtKind::Break => return Ok(Flow::Break),
             StmtKind::Continue => return Ok(Flow::Continue),
             StmtKind::Return(value) => {
                 match value {
                     Some(e) if e.ty == Type::Mesh => self.returned_set = Some(self.set(e)?),
+                    Some(e) if e.ty == Type::Ring => self.returned_ring = Some(self.list(e)?),
                     Some(e) => self.returned = self.eval(e)?,
                     None => {}
                 }
                 return Ok(Flow::Return);
             }
             StmtKind::Make { items, of } => self.make(items, of, s.span)?,
+            StmtKind::MakeRing { ring, of } => self.make_ring(*ring, of, s.span)?,
             StmtKind::Erase { item, from } => self.erase(item, from)?,
             StmtKind::Replace { item, with, ring } => self.replace(item, with, ring, s.span)?,
             StmtKind::Splice { item, side, anchor, ring } => self.splice(item, *side, anchor, ring, s.span)?,
@@ -50,6 +56,7 @@ impl<'a> Machine<'a> {
                 let index = self.set_index(*set);
                 self.sets[index].members.add(v);
             }
+            StmtKind::Append { vertex, ring } => self.append(vertex, *ring, s.span)?,
             StmtKind::Remove { vertex, set } => {
                 let v = self.not_null(vertex, "null cannot be removed from a set")?;
                 let index = self.set_index(*set);
@@ -80,6 +87,13 @@ impl<'a> Machine<'a> {
                 for (value, property) in self.sets[index].properties.iter_mut().zip(&self.program.mesh_properties) {
                     *value = property.default;
                 }
+            }
+            (Type::Ring, init) => {
+                let list = match init {
+                    Some(e) => self.list(e)?,
+                    None => List::default(),
+                };
+                self.set_ring(local, list, variable.span)?;
             }
             (Type::Value(ty), init) => {
                 let value = match init {
@@ -147,31 +161,6 @@ impl<'a> Machine<'a> {
         Ok(flow)
     }
 
-    fn for_ring(&mut self, local: LocalId, ring: &'a Ring, body: &'a [Stmt]) -> Run<Flow> {
-        let span = ring.vertex.span;
-        let v = self.ring_owner(ring)?;
-        let start = self.neighbours.len();
-        let mesh = if ring.old { &self.old.mesh } else { &self.mesh };
-        self.neighbours.extend(mesh.ring(v).vertices());
-        let end = self.neighbours.len();
-        self.account(4 * (end - start), span)?;
-        let mut flow = Flow::Next;
-        for i in start..end {
-            self.poll(span)?;
-            self.set_local(local, Value::Vertex(Some(self.neighbours[i])));
-            match self.block(body)? {
-                Flow::Break => break,
-                Flow::Return => {
-                    flow = Flow::Return;
-                    break;
-                }
-                Flow::Next | Flow::Continue => {}
-            }
-        }
-        self.neighbours.truncate(start);
-        Ok(flow)
-    }
-
     fn merge(&mut self, set: LocalId, other: &VertexSet, span: Span) -> Run<()> {
         let index = self.set_index(set);
         if self.sets[index].members.is_empty() {
@@ -198,15 +187,11 @@ impl<'a> Machine<'a> {
                 PrintItem::Text(text) => line.push_str(text),
                 PrintItem::Value(e) if e.ty == Type::Mesh => {
                     let members = self.members(e)?;
-                    line.push('{');
-                    for (i, v) in members.iter().enumerate() {
-                        if i % POLL_STRIDE == 0 {
-                            self.poll(span)?;
-                        }
-                        line.push_str(if i > 0 { ", " } else { "" });
-                        text::push_value(&mut line, Value::Vertex(Some(v)));
-                    }
-                    line.push('}');
+                    self.print_members(&mut line, members.iter(), span)?;
+                }
+                PrintItem::Value(e) if e.ty == Type::Ring => {
+                    let list = self.list(e)?;
+                    self.print_members(&mut line, list.iter().copied().flatten(), span)?;
                 }
                 PrintItem::Value(e) => {
                     let value = self.eval(e)?;
@@ -220,6 +205,19 @@ impl<'a> Machine<'a> {
             return Err(self.fail_with(FailureKind::OutputClosed, span, closed.to_string()));
         }
         self.line = line;
+        Ok(())
+    }
+
+    fn print_members(&self, line: &mut String, members: impl Iterator<Item = Vertex>, span: Span) -> Run<()> {
+        line.push('{');
+        for (i, v) in members.enumerate() {
+            if i % POLL_STRIDE == 0 {
+                self.poll(span)?;
+            }
+            line.push_str(if i > 0 { ", " } else { "" });
+            text::push_value(line, Value::Vertex(Some(v)));
+        }
+        line.push('}');
         Ok(())
     }
 }

@@ -94,11 +94,13 @@ impl Facts {
                 }
             }
             let function = &program.functions[i];
-            let sets =
-                function.locals.iter().enumerate().any(|(l, local)| {
-                    local.ty == Type::Mesh && function.parameters.get(l) != Some(&Passing::Reference)
-                });
-            inline[i] = !order.cyclic[i] && size[i] <= INLINE_SIZE && !sets && function.returns != Type::Mesh;
+            let sets = function.locals.iter().enumerate().any(|(l, local)| {
+                matches!(local.ty, Type::Mesh | Type::Ring) && function.parameters.get(l) != Some(&Passing::Reference)
+            });
+            inline[i] = !order.cyclic[i]
+                && size[i] <= INLINE_SIZE
+                && !sets
+                && !matches!(function.returns, Type::Mesh | Type::Ring);
         }
         let roots = program.rules.iter().chain(&program.start).map(|f| f.0 as usize);
         let mut open: Vec<usize> = roots.chain(own_of_globals(program).calls).collect();
@@ -160,7 +162,11 @@ impl Own {
         self.size += 1;
         match node {
             Node::Stmt(s) => match s.kind {
-                StmtKind::Make { .. } | StmtKind::Erase { .. } | StmtKind::Replace { .. } | StmtKind::Splice { .. } => {
+                StmtKind::Make { .. }
+                | StmtKind::MakeRing { .. }
+                | StmtKind::Erase { .. }
+                | StmtKind::Replace { .. }
+                | StmtKind::Splice { .. } => {
                     self.effects.edits = true;
                     self.size += 8;
                 }
@@ -247,7 +253,13 @@ fn keeping(function: &Function, inline: &[bool]) -> Vec<Keeping> {
         Node::Stmt(s) => match &s.kind {
             StmtKind::Declare { local, .. }
             | StmtKind::ForallSet { local, .. }
-            | StmtKind::ForallRing { local, .. } => define(*local),
+            | StmtKind::ForallFaces { local, .. } => define(*local),
+            StmtKind::ForallRing { local, follower, .. } => {
+                define(*local);
+                if let Some(follower) = follower {
+                    define(*follower);
+                }
+            }
             _ => {}
         },
         Node::Expr(e) => match &e.kind {
@@ -297,7 +309,7 @@ fn variable_of(place: &Place) -> Option<LocalId> {
 fn old_reads(program: &Program) -> OldReads {
     let mut reads = OldReads { vertex_properties: vec![false; program.vertex_properties.len()], ..OldReads::default() };
     let mut note = |node: Node<'_>| match node {
-        Node::Ring(ring) => reads.rings |= ring.old,
+        Node::Ring(ring) => reads.rings |= ring.is_old(),
         Node::Place(Place::Position { old, .. }) => reads.positions |= old,
         Node::Place(Place::VertexProperty { property, old, .. }) => {
             if let Some(read) = reads.vertex_properties.get_mut(*property as usize) {
@@ -356,8 +368,18 @@ fn each_in_statement<'a>(s: &'a Stmt, visit: &mut dyn FnMut(Node<'a>)) {
             each_in(set, visit);
             each(body, visit);
         }
-        StmtKind::ForallRing { ring, body, .. } => {
+        StmtKind::ForallFaces { set, body, .. } => {
+            each_in(set, visit);
+            each(body, visit);
+        }
+        StmtKind::ForallRing { ring, from, body, .. } => {
             each_in_ring(ring, visit);
+            if let Some(from) = from {
+                each_in(&from.corner, visit);
+                if let Some(next) = &from.next {
+                    each_in(next, visit);
+                }
+            }
             each(body, visit);
         }
         StmtKind::Break | StmtKind::Continue => {}
@@ -372,21 +394,24 @@ fn each_in_statement<'a>(s: &'a Stmt, visit: &mut dyn FnMut(Node<'a>)) {
             }
             each_in(of, visit);
         }
+        StmtKind::MakeRing { of, .. } => each_in(of, visit),
         StmtKind::Erase { item, from } => {
             each_in_item(item, visit);
-            each_in(from, visit);
+            each_in_ring(from, visit);
         }
         StmtKind::Replace { item, with, ring } => {
             each_in_item(item, visit);
             each_in_item(with, visit);
-            each_in(ring, visit);
+            each_in_ring(ring, visit);
         }
         StmtKind::Splice { item, anchor, ring, .. } => {
             each_in_item(item, visit);
             each_in_item(anchor, visit);
-            each_in(ring, visit);
+            each_in_ring(ring, visit);
         }
-        StmtKind::Add { vertex, .. } | StmtKind::Remove { vertex, .. } => each_in(vertex, visit),
+        StmtKind::Add { vertex, .. } | StmtKind::Append { vertex, .. } | StmtKind::Remove { vertex, .. } => {
+            each_in(vertex, visit);
+        }
         StmtKind::Merge { other, .. } => each_in(other, visit),
         StmtKind::Print(items) => {
             for item in items {
@@ -406,7 +431,9 @@ fn each_in_item<'a>(item: &'a Item, visit: &mut dyn FnMut(Node<'a>)) {
 
 fn each_in_ring<'a>(ring: &'a Ring, visit: &mut dyn FnMut(Node<'a>)) {
     visit(Node::Ring(ring));
-    each_in(&ring.vertex, visit);
+    if let Ring::Of { vertex, .. } = ring {
+        each_in(vertex, visit);
+    }
 }
 
 fn each_in_place<'a>(place: &'a Place, visit: &mut dyn FnMut(Node<'a>)) {
@@ -433,9 +460,8 @@ fn each_in_expression<'a>(e: &'a Expr, visit: &mut dyn FnMut(Node<'a>)) {
     match &e.kind {
         ExprKind::Constant(_) | ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Create => {}
         ExprKind::Load(place) | ExprKind::Step(place, ..) => each_in_place(place, visit),
-        ExprKind::Convert(_, a) | ExprKind::Unary(_, a) | ExprKind::Coordinate(a, _) | ExprKind::AssignSet(_, a) => {
-            each_in(a, visit);
-        }
+        ExprKind::Convert(_, a) | ExprKind::Unary(_, a) | ExprKind::Coordinate(a, _) => each_in(a, visit),
+        ExprKind::AssignSet(_, a) | ExprKind::AssignRing(_, a) => each_in(a, visit),
         ExprKind::Binary(_, a, b) | ExprKind::And(a, b) | ExprKind::Or(a, b) | ExprKind::IsInSet(a, b) => {
             each_in(a, visit);
             each_in(b, visit);

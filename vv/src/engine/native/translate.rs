@@ -80,6 +80,7 @@ pub(super) fn signature(function: &Function, mut signature: Signature) -> Transl
                     signature.params.push(AbiParam::new(t));
                 }
             }
+            (Type::Ring, _) => return Err(no_rings()),
             (Type::Void, _) => return Err(Refused("a parameter has no type".to_owned())),
         }
     }
@@ -135,6 +136,11 @@ impl Val {
             _ => Self::Void,
         }
     }
+}
+
+/// Rings as values, faces and pairs are not compiled yet.
+fn no_rings() -> Refused {
+    Refused("rings and faces are not compiled yet".to_owned())
 }
 
 fn wrong_type() -> Refused {
@@ -307,6 +313,7 @@ impl<'t, 'p> Translator<'t, 'p> {
                 }
                 (Type::Mesh, None) => Storage::Set(self.new_set()),
                 (Type::Value(ty), None) => self.allocate(ty, keeping[i]),
+                (Type::Ring, _) => return Err(no_rings()),
                 (Type::Void, _) => Storage::None,
             };
             storage.push(place);

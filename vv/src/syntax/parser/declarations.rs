@@ -101,6 +101,14 @@ impl Parser<'_> {
     fn initializer(&mut self, ty: TypeName, name: &Name) -> Option<Expr> {
         let open = self.at;
         match self.kind() {
+            Kind::Assign if ty.kind == TypeKind::Ring && self.kind_at(open + 1) == Kind::OpenBrace => {
+                let (span, name) = (self.span_at(open + 1), &name.text);
+                let error = Diagnostic::error(span, "a ring is not written as a list");
+                self.fail(error.hint(format!("it begins empty, `ring {name};`, and grows by `add v to {name};`")));
+                self.at = self.behind_braces(open + 1);
+                self.panicking = false;
+                None
+            }
             Kind::Assign => {
                 self.bump();
                 Some(self.expression())
@@ -141,7 +149,7 @@ impl Parser<'_> {
         let (start, word, span) = (self.at, self.word(), self.here());
         let message = format!("`{word}` is not a type of vv");
         let error = Diagnostic::error(span, message);
-        let known = words::RESERVED[1..6].iter().copied().chain(["vec", "point", "vector"]);
+        let known = words::RESERVED[1..6].iter().copied().chain(["vec", "point", "vector", "ring"]);
         let similar = words::similar(word, known);
         let ty = if let Some(ty) = self.foreign_type_name() {
             ty

@@ -90,7 +90,7 @@ impl Parser<'_> {
             }
             if matches!(self.kind_at(start + 2), Kind::Semicolon | Kind::Assign | Kind::Comma) {
                 let error = Diagnostic::error(span, format!("`{word}` is not a type of vv"));
-                self.fail(error.hint("the types are `bool`, `int`, `double`, `vec`, `vertex` and `mesh`"));
+                self.fail(error.hint("the types are `bool`, `int`, `double`, `vec`, `vertex`, `mesh` and `ring`"));
                 self.synchronize();
                 return StmtKind::Empty;
             }

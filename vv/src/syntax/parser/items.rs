@@ -85,7 +85,7 @@ impl Parser<'_> {
         }
         // `float area(…)`, `viod f(…)`
         if is_pair && self.kind_at(start + 2) == Kind::OpenParen {
-            let ty = self.almost_type(words::RESERVED[..6].iter().copied().chain(["vec"]));
+            let ty = self.almost_type(words::RESERVED[..6].iter().copied().chain(["vec", "ring"]));
             return self.function_of(false, ty);
         }
         if is_word && next == Kind::OpenParen && self.has_body_behind(start + 1) {
@@ -95,7 +95,7 @@ impl Parser<'_> {
             return self.function_of(false, TypeName { kind: TypeKind::Void, span: before });
         }
         if is_pair {
-            let known = words::RESERVED[..6].iter().copied().chain(["vec", "param", "const", "static"]);
+            let known = words::RESERVED[..6].iter().copied().chain(["vec", "ring", "param", "const", "static"]);
             let error = Diagnostic::error(span, format!("unknown word `{word}` at file scope"));
             let meant = words::foreign_type(word).map(|(meant, _)| meant).or_else(|| words::similar(word, known));
             self.fail(match meant.filter(|meant| !meant.contains(' ')) {
@@ -123,7 +123,7 @@ impl Parser<'_> {
         let meant = words::similar(word, types);
         self.mend(match meant {
             Some(meant) => error.fix(format!("did you mean `{meant}`?"), span, meant),
-            None => error.hint("the types are `void`, `bool`, `int`, `double`, `vec`, `vertex` and `mesh`"),
+            None => error.hint("the types are `void`, `bool`, `int`, `double`, `vec`, `vertex`, `mesh` and `ring`"),
         });
         self.bump_as(Role::Type);
         TypeName { kind: meant.and_then(words::any_type).unwrap_or(TypeKind::Void), span }

@@ -173,7 +173,7 @@ fn broken_lists_of_make() {
         //       ^ error: expected a value, found `,`
         make {a, b} x;
         //          ^ error: expected `nb_of`, found `x` | write `make {a, b, c} nb_of v`
-        make a nb_of x;
+        make a, b nb_of x;
         //   ^ error: expected `{` after `make`, found `a` | write `make {a, b, c} nb_of v`
         make {a, b nb_of x;
         //       ^ error: expected `}` after this | write `}`
@@ -355,18 +355,40 @@ fn membership_without_is() {
 fn heads_of_forall() {
     check(
         r#"
-        forall p, q in S { a; }
-        //      ^ error: a `forall` has one variable | write `forall p in S { … }`
+        forall p, q, r in f { a; }
+        //         ^ error: a `forall` has one variable, or two that follow each other | write `forall p in S { … }` or `forall p, q in f { … }`
+        forall p, in f { a; }
+        //           ^ error: expected `in`, found `f` | write `forall p in S { … }`
+        forall f in face S { a; }
+        //          ^^^^ error: unknown word `face` | did you mean `faces`?
+        forall x in f from p, { a; }
+        //                    ^ error: expected a vertex, found `{` | write `forall x in f from p, q { … }`
         forall (p in S) { a; }
         //     ^ error: `forall` takes no parentheses | write `forall p in S { … }`
         forall vertex p in S { a; }
-        //     ^^^^^^ error: the variable of a `forall` needs no type, it is a vertex | leave the type out
+        //     ^^^^^^ error: the variable of a `forall` needs no type, it has that of what is walked | leave the type out
         forall p : S { a; }
         //       ^ error: expected `in`, found `:` | write `in`
         forall S { a; }
         //       ^ error: expected `in`, found `{` | write `forall p in S { … }`
         forall 3 in S { a; }
         //     ^ error: expected the name of the loop's variable, found the number `3`
+    "#,
+    );
+}
+
+#[test]
+fn rings_are_not_lists() {
+    check(
+        r#"
+        ring r = {a, b}, s;
+        //       ^ error: a ring is not written as a list | it begins empty, `ring r;`, and grows by `add v to r;`
+        rin r;
+      //^^^ error: `rin` is not a type of vv | the types are `bool`, `int`, `double`, `vec`, `vertex`, `mesh` and `ring`
+        rinng r;
+      //^^^^^ error: `rinng` is not a type of vv | did you mean `ring`?
+        Face f;
+      //^^^^ error: `Face` is not a type of vv | write `ring`
     "#,
     );
 }
@@ -518,9 +540,9 @@ fn foreign_types() {
         unsigned n;
       //^^^^^^^^ error: `unsigned` is not a type of vv | write `int`
         Foo y = 3;
-      //^^^ error: `Foo` is not a type of vv | the types are `bool`, `int`, `double`, `vec`, `vertex` and `mesh`
+      //^^^ error: `Foo` is not a type of vv | the types are `bool`, `int`, `double`, `vec`, `vertex`, `mesh` and `ring`
         foo z;
-      //^^^ error: `foo` is not a type of vv | the types are `bool`, `int`, `double`, `vec`, `vertex` and `mesh`
+      //^^^ error: `foo` is not a type of vv | the types are `bool`, `int`, `double`, `vec`, `vertex`, `mesh` and `ring`
     "#,
     );
 }

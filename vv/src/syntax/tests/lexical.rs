@@ -128,6 +128,11 @@ fn colours() {
         "void f() { make {nextto x in q} nb of x; }",
         "void:type f:function make:algebra nextto:algebra x:name in:algebra q:name nb:algebra of:algebra x:name",
     );
+    classes(
+        "void f(ring r) { forall f in faces S forall p, q in f from a, b make r nb_of p; }",
+        "void:type f:function ring:type r:name forall:algebra f:name in:algebra faces:algebra S:name forall:algebra \
+         p:name q:name in:algebra f:name from:algebra a:name b:name make:algebra r:name nb_of:algebra p:name",
+    );
     classes("void f() { @ }", "void:type f:function @:error");
 }
 
@@ -137,6 +142,10 @@ fn colours_of_words_that_are_names() {
     classes(
         "void f() { point in; point = any in in + step(add); }",
         "void:type f:function point:type in:name point:name any:algebra in:algebra in:name step:function add:name",
+    );
+    classes(
+        "void f() { ring ring; forall from in faces { ring = from; } }",
+        "void:type f:function ring:type ring:name forall:algebra from:name in:algebra faces:name ring:name from:name",
     );
 }
 

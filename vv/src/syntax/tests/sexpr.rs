@@ -78,11 +78,18 @@ pub fn stmt(s: &Stmt) -> String {
                 stmt(body),
             ],
         ),
-        StmtKind::Forall { variable, over, body } => list("forall", [variable.text.clone(), expr(over), stmt(body)]),
+        StmtKind::Forall(f) => {
+            let over = if f.faces.is_some() { list("faces", [expr(&f.over)]) } else { expr(&f.over) };
+            let from = f.from.as_ref().map(|f| list("from", std::iter::once(&f.corner).chain(&f.next).map(expr)));
+            let follower = f.follower.as_ref().map(|f| f.text.clone());
+            let head = std::iter::once(f.variable.text.clone()).chain(follower);
+            list("forall", head.chain([over]).chain(from).chain([stmt(&f.body)]))
+        }
         StmtKind::Break => "(break)".to_owned(),
         StmtKind::Continue => "(continue)".to_owned(),
         StmtKind::Return(value) => list("return", value.iter().map(expr)),
         StmtKind::Make { items, of } => format!("(make [{}] {})", all(items), expr(of)),
+        StmtKind::MakeRing { ring, of } => list("make", [expr(ring), expr(of)]),
         StmtKind::Erase { item, from } => list("erase", [expr(item), expr(from)]),
         StmtKind::Replace { item, with, ring } => list("replace", [expr(item), expr(with), expr(ring)]),
         StmtKind::Splice { item, side, anchor, ring } => {

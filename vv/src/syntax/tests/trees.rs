@@ -77,6 +77,8 @@ fn statements_of_the_algebra() {
     check("synchronize S; synchronise S; synchronize (S);", "(synchronize S) (synchronize S) (synchronize (S))");
     check("add prevto q in p to S; add (p) to S; remove p from S;", "(add (prevto q p) S) (add (p) S) (remove p S)");
     check("merge S with T;", "(merge S T)");
+    check("make r nb_of v; make in nb of nb;", "(make r v) (make in nb)");
+    check("ring r, s = r; r = s;", "(ring r (= s r)) (= r s)");
     check(
         "print a, \"b\\n\", c; print(a, \"b\"); print (a + b) / 2; print -1; print; print();",
         "(print a \"b\\n\" c) (print a \"b\") (print (/ (+ a b) 2)) (print (- 1)) (print) (print)",
@@ -88,6 +90,12 @@ fn loops_and_branches() {
     check("forall q in `p p$pos += `q$pos;", "(forall q `p (+= p$pos `q$pos))");
     check("forall q in any in p ++n;", "(forall q (any p) (++ n))");
     check("forall q in insert(a, b) { }", "(forall q (call insert a b) (block))");
+    check("forall p, q in f { }", "(forall p q f (block))");
+    check("forall p, q in `v from a f(p, q);", "(forall p q `v (from a) (call f p q))");
+    check("forall x in f from p, q c += 1;", "(forall x f (from p q) (+= c 1))");
+    check("forall x in f from nextto p in v { }", "(forall x f (from (nextto p v)) (block))");
+    check("forall f in faces S { }", "(forall f (faces S) (block))");
+    check("forall f in faces part(S, 1) print f;", "(forall f (faces (call part S 1)) (print f))");
     check("if (a) if (b) x; else y; else { }", "(if a (if b x y) (block))");
     check(
         "while (true) { break; continue; return; return 1; }",

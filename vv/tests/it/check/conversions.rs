@@ -54,20 +54,33 @@ impl Printer<'_> {
             StmtKind::ForallSet { local: l, set, body } => {
                 format!("forall {} in set {} {{ {} }}", local(l), self.expr(set), self.statements(body))
             }
-            StmtKind::ForallRing { local: l, ring, body } => {
-                format!("forall {} in {} {{ {} }}", local(l), self.ring(ring), self.statements(body))
+            StmtKind::ForallRing { local: l, follower, ring, from, body } => {
+                let follower = follower.as_ref().map_or(String::new(), |l| format!(", {}", local(l)));
+                let from = from.as_ref().map_or(String::new(), |from| {
+                    let next = from.next.as_ref().map_or(String::new(), |next| format!(", {}", self.expr(next)));
+                    format!(" from {}{next}", self.expr(&from.corner))
+                });
+                format!("forall {}{follower} in {}{from} {{ {} }}", local(l), self.ring(ring), self.statements(body))
             }
+            StmtKind::ForallFaces { local: l, set, body } => {
+                format!("forall {} in faces {} {{ {} }}", local(l), self.expr(set), self.statements(body))
+            }
+            StmtKind::MakeRing { ring, of } => format!("make {} of {};", local(ring), self.expr(of)),
+            StmtKind::Append { vertex, ring } => format!("append {} to {};", self.expr(vertex), local(ring)),
             StmtKind::Make { items, of } => {
                 let items: Vec<_> = items.iter().map(|i| self.item(i)).collect();
                 format!("make {{{}}} of {};", items.join(", "), self.expr(of))
             }
-            StmtKind::Erase { item, from } => format!("erase {} from {};", self.item(item), self.expr(from)),
+            StmtKind::Erase { item, from } => format!("erase {} from {};", self.item(item), self.ring(from)),
             other => format!("{other:?}"),
         }
     }
 
     fn ring(&self, ring: &Ring) -> String {
-        format!("{}ring({})", if ring.old { "old " } else { "" }, self.expr(&ring.vertex))
+        match ring {
+            Ring::Of { vertex, old } => format!("{}ring({})", if *old { "old " } else { "" }, self.expr(vertex)),
+            Ring::Variable { local, .. } => self.f.locals[local.0 as usize].name.clone(),
+        }
     }
 
     fn item(&self, item: &Item) -> String {
@@ -135,6 +148,7 @@ impl Printer<'_> {
             }
             ExprKind::Step(place, by, position) => format!("{by:?} {position:?} {}", self.place(place)),
             ExprKind::AssignSet(l, set) => format!("{} = set {}", self.f.locals[l.0 as usize].name, self.expr(set)),
+            ExprKind::AssignRing(l, ring) => format!("{} = ring {}", self.f.locals[l.0 as usize].name, self.expr(ring)),
             ExprKind::Create => "create".to_owned(),
             ExprKind::Any(ring) => format!("any({})", self.ring(ring)),
             ExprKind::Next(item, ring) => format!("next({}, {})", self.item(item), self.ring(ring)),
@@ -254,7 +268,7 @@ fn rings_and_gaps() {
         "make {next(p, ring(q)), gap, gap, previous(gap, ring(p))} of q;",
     );
     check("b = is p in S || is p in `q;", "b = Or(is(p, set S), is(p, old ring(q)));");
-    check("erase any in `(nextto p in `q) from p;", "erase any(old ring(next(p, old ring(q)))) from p;");
+    check("erase any in `(nextto p in `q) from p;", "erase any(old ring(next(p, old ring(q)))) from ring(p);");
     check("b = is null in S;", "b = is(null, set S);");
     check("i = gaps p + valence `p;", "i = AddInt(gaps(ring(p)), valence(old ring(p)));");
 }

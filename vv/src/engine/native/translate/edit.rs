@@ -9,7 +9,7 @@ use super::known::{Bounds, Key};
 use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::ir::{Expr, Item, Side};
+use crate::ir::{Expr, Item, Ring, Side};
 use crate::mesh::FRESH_CAPACITY;
 
 /// Rings made of more items than this are left to the runtime.
@@ -114,10 +114,10 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().store(heads, len, head, context::HEAD_LEN);
     }
 
-    pub(super) fn replace(&mut self, item: &'p Item, with: &'p Item, ring: &'p Expr) -> Translated<()> {
+    pub(super) fn replace(&mut self, item: &'p Item, with: &'p Item, ring: &'p Ring) -> Translated<()> {
         let a = self.sought(item)?;
         let x = self.put(with)?;
-        let v = self.vertex_not_null(ring)?;
+        let v = self.ring_owner(ring)?;
         let operands = [self.or_null(a), self.or_null(x), v];
         self.edit(Symbol::Replace, &operands, |t, ways| {
             if let (Some(a), Some(x)) = (a, x) {
@@ -164,10 +164,10 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().bor(bad, null)
     }
 
-    pub(super) fn splice(&mut self, item: &'p Item, side: Side, anchor: &'p Item, ring: &'p Expr) -> Translated<()> {
+    pub(super) fn splice(&mut self, item: &'p Item, side: Side, anchor: &'p Item, ring: &'p Ring) -> Translated<()> {
         let x = self.put(item)?;
         let a = self.sought(anchor)?;
-        let v = self.vertex_not_null(ring)?;
+        let v = self.ring_owner(ring)?;
         let before = self.int32(u32::from(side == Side::Before));
         let operands = [self.or_null(x), self.or_null(a), v, before];
         self.edit(Symbol::Splice, &operands, |t, ways| {
@@ -294,9 +294,9 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().bitcast(types::I32X4, little_endian(), shifted)
     }
 
-    pub(super) fn erase(&mut self, item: &'p Item, from: &'p Expr) -> Translated<()> {
+    pub(super) fn erase(&mut self, item: &'p Item, from: &'p Ring) -> Translated<()> {
         let x = self.sought(item)?;
-        let v = self.vertex_not_null(from)?;
+        let v = self.ring_owner(from)?;
         let operands = [self.or_null(x), v];
         self.edit(Symbol::Erase, &operands, |t, ways| match x {
             Some(x) => t.erase_in_place(x, v, ways),

@@ -3,7 +3,7 @@
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::{InstBuilder, Type as ClifType, Value, types};
 
-use super::{Symbol, Translated, Translator, Val, clif_types, wrong_type};
+use super::{Symbol, Translated, Translator, Val, clif_types, no_rings, wrong_type};
 use crate::engine::native::context;
 use crate::engine::native::{Mutation, RED_ZONE, STACK_SEGMENT};
 use crate::ir::{Binary, Comparison, Conversion, Expr, ExprKind, Item, Ring, Type, Unary};
@@ -77,10 +77,11 @@ impl<'p> Translator<'_, 'p> {
                 self.drop_sets(mark);
                 Ok(Val::Void)
             }
+            ExprKind::AssignRing(..) => Err(no_rings()),
             ExprKind::Create => Ok(Val::One(self.create()?)),
             ExprKind::Any(ring) => {
                 let v = self.ring_owner(ring)?;
-                Ok(Val::One(self.any(v, ring.old)))
+                Ok(Val::One(self.any(v, ring.is_old())))
             }
             ExprKind::Next(item, ring) => self.look_up(item, ring, true),
             ExprKind::Previous(item, ring) => self.look_up(item, ring, false),
@@ -88,9 +89,9 @@ impl<'p> Translator<'_, 'p> {
                 let x = self.sought(item)?;
                 let v = self.ring_owner(ring)?;
                 if x.is_none() {
-                    return Ok(Val::One(self.has_gap(v, ring.old)));
+                    return Ok(Val::One(self.has_gap(v, ring.is_old())));
                 }
-                let found = self.find(x, v, ring.old);
+                let found = self.find(x, v, ring.is_old());
                 let certain = self.b.ins().iconst(types::I8, 1);
                 let is = found.found.unwrap_or(certain);
                 Ok(Val::One(self.inverted_if(is, Mutation::IsInRingInverted)))
@@ -98,17 +99,17 @@ impl<'p> Translator<'_, 'p> {
             ExprKind::IsInSet(vertex, set) => self.is_in_set(vertex, set),
             ExprKind::Valence(ring) => {
                 let v = self.ring_owner(ring)?;
-                let mut gaps = self.gaps(v, ring.old);
+                let mut gaps = self.gaps(v, ring.is_old());
                 if self.mutated(Mutation::ForgetsGapsOfValence) {
                     gaps = self.int32(0);
                 }
-                let len = self.bounds(v, ring.old).len;
+                let len = self.bounds(v, ring.is_old()).len;
                 let n = self.b.ins().isub(len, gaps);
                 Ok(Val::One(self.b.ins().uextend(types::I64, n)))
             }
             ExprKind::Gaps(ring) => {
                 let v = self.ring_owner(ring)?;
-                let gaps = self.gaps(v, ring.old);
+                let gaps = self.gaps(v, ring.is_old());
                 Ok(Val::One(self.b.ins().uextend(types::I64, gaps)))
             }
         }
@@ -128,7 +129,7 @@ impl<'p> Translator<'_, 'p> {
     fn look_up(&mut self, item: &'p Item, ring: &'p Ring, forward: bool) -> Translated<Val> {
         let x = self.sought(item)?;
         let v = self.ring_owner(ring)?;
-        let old = ring.old && !self.mutated(Mutation::OldRingIsNew);
+        let old = ring.is_old() && !self.mutated(Mutation::OldRingIsNew);
         let found = self.find(x, v, old);
         Ok(Val::One(self.neighbour(found, forward, old)))
     }

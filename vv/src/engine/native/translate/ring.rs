@@ -5,7 +5,7 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, Value, types};
 
 use super::known::{Bounds, Fact, Found, Key};
-use super::{Symbol, Translated, Translator};
+use super::{Symbol, Translated, Translator, no_rings};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
 use crate::ir::{Expr, Item, Ring};
@@ -17,9 +17,10 @@ pub(super) const WIDTHS: [i64; 2] = [8, 16];
 impl<'p> Translator<'_, 'p> {
     /// The vertex whose ring is meant: not null, and with an old value if that is meant.
     pub(super) fn ring_owner(&mut self, ring: &'p Ring) -> Translated<Value> {
-        let v = self.vertex(&ring.vertex)?;
+        let Ring::Of { vertex, old } = ring else { return Err(no_rings()) };
+        let v = self.vertex(vertex)?;
         self.not_null(v);
-        if ring.old {
+        if *old {
             self.held(v);
         }
         Ok(v)

@@ -3,7 +3,7 @@
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, types};
 
-use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
+use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, no_rings, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context::{self, status};
 use crate::engine::native::effects::{Node, each_in};
@@ -52,9 +52,13 @@ impl<'p> Translator<'_, 'p> {
             StmtKind::ForallSet { local, set, body } => {
                 self.for_set(*local, set, body)?;
             }
-            StmtKind::ForallRing { local, ring, body } => {
+            StmtKind::ForallRing { local, follower: None, ring, from: None, body } => {
                 self.for_ring(*local, ring, body)?;
             }
+            StmtKind::ForallRing { .. }
+            | StmtKind::ForallFaces { .. }
+            | StmtKind::MakeRing { .. }
+            | StmtKind::Append { .. } => return Err(no_rings()),
             StmtKind::Break => {
                 let Loop { exit, next, .. } = self.innermost()?;
                 let to = if self.mutated(Mutation::BreakIsContinue) { next } else { exit };
@@ -128,6 +132,7 @@ impl<'p> Translator<'_, 'p> {
                 };
                 self.define_local(local, value)?;
             }
+            Type::Ring => return Err(no_rings()),
             Type::Void => {}
         }
         Ok(())

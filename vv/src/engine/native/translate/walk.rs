@@ -111,14 +111,14 @@ impl<'p> Translator<'_, 'p> {
     }
 
     pub(super) fn for_ring(&mut self, local: LocalId, ring: &'p Ring, body: &'p [Stmt]) -> Translated<()> {
-        let span = ring.vertex.span;
+        let span = ring.span();
         let v = self.ring_owner(ring)?;
         let effects = self.unit.facts.effects_of(body, &[], None);
-        let moves = if ring.old { effects.synchronizes } else { effects.edits };
+        let moves = if ring.is_old() { effects.synchronizes } else { effects.edits };
         let exit = self.b.create_block();
         if moves {
             let count = self.load_context(types::I64, context::WALK_COUNT);
-            let [first, end] = self.copy_ring(v, ring.old);
+            let [first, end] = self.copy_ring(v, ring.is_old());
             self.forget(effects);
             let flags = self.regions.locals;
             self.walk(local, first, end, span, Walk::Ring(count), exit, body, |t, at| {
@@ -128,12 +128,12 @@ impl<'p> Translator<'_, 'p> {
             self.store_context(count, context::WALK_COUNT);
             return Ok(());
         }
-        let bounds = self.bounds(v, ring.old);
+        let bounds = self.bounds(v, ring.is_old());
         let bytes = self.bytes_of(bounds.len);
         let end = self.b.ins().iadd(bounds.start, bytes);
         self.forget(effects);
-        let flags = if ring.old { self.regions.old } else { self.regions.slots };
-        let old = ring.old;
+        let flags = if ring.is_old() { self.regions.old } else { self.regions.slots };
+        let old = ring.is_old();
         self.walk(local, bounds.start, end, span, Walk::Nothing, exit, body, |t, at| {
             let q = t.b.ins().load(types::I32, flags, at, 0);
             let at = t.b.ins().isub(at, bounds.start);
