@@ -13,6 +13,7 @@ mod manual;
 mod mesh;
 mod rings;
 mod run;
+mod schemes;
 mod shapes;
 
 mod architecture;

@@ -1,0 +1,128 @@
+//! Every shipped program runs on every shipped mesh that it claims to support, without a warning.
+
+use std::path::PathBuf;
+
+use vv::engine::{Engine, Machine, Settings};
+use vv::io::{Format, ReadOptions, read};
+use vv::mesh::Mesh;
+use vv::mesh::close::close;
+use vv::mesh::faces::faces;
+use vv::mesh::statistics::{Statistics, statistics};
+use vv::stop::Stop;
+
+use super::{assets_folder, compile};
+
+/// What a program is for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Class {
+    Triangles,
+    ClosedTriangles,
+    Quads,
+    Polygons,
+    /// What it makes itself in `start`.
+    Own,
+}
+
+/// File, rule if only that, class. Programs that make their own mesh need no row.
+const CLAIMS: &[(&str, Option<&str>, Class)] = &[
+    ("butterfly.vv", None, Class::Triangles),
+    ("delaunay.vv", None, Class::Triangles),
+    ("limit.vv", Some("loop_limit"), Class::Triangles),
+    ("limit.vv", Some("catmull_clark_limit"), Class::Quads),
+    ("loop-creases.vv", None, Class::Triangles),
+    ("loop.vv", None, Class::Triangles),
+    ("midedge.vv", None, Class::Polygons),
+    ("paper-butterfly.vv", None, Class::ClosedTriangles),
+    ("paper-loop.vv", None, Class::ClosedTriangles),
+    ("paper-polyhedral.vv", None, Class::Triangles),
+    ("paper-sqrt3.vv", None, Class::ClosedTriangles),
+    ("smooth.vv", None, Class::Polygons),
+    ("sqrt3.vv", None, Class::Triangles),
+];
+
+fn files(folder: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(assets_folder().join(folder)).unwrap();
+    let mut files: Vec<_> = entries.map(|e| e.unwrap().path()).filter(|p| p.is_file()).collect();
+    files.sort();
+    files
+}
+
+fn name(path: &std::path::Path) -> String {
+    path.file_name().unwrap().to_string_lossy().into_owned()
+}
+
+fn count(mesh: &Mesh) -> Statistics {
+    let stop = Stop::new();
+    statistics(mesh, &faces(mesh, &stop).unwrap(), &stop).unwrap()
+}
+
+fn supports(class: Class, statistics: &Statistics) -> bool {
+    let triangles = statistics.face_degrees.iter().all(|&(n, _)| n == 3);
+    match class {
+        Class::Triangles => triangles,
+        Class::ClosedTriangles => triangles && statistics.closed,
+        Class::Polygons => true,
+        Class::Quads => statistics.face_degrees.iter().all(|&(n, _)| n == 4),
+        Class::Own => false,
+    }
+}
+
+#[test]
+fn every_program_runs_on_every_mesh_it_is_for() {
+    let meshes: Vec<_> = files("meshes")
+        .iter()
+        .filter_map(|path| {
+            let format = Format::from_extension(path.extension()?.to_str()?)?;
+            let (mesh, warnings) = read(&std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap();
+            assert!(warnings.is_empty(), "{}: {warnings:?}", path.display());
+            Some((name(path), count(&mesh), mesh))
+        })
+        .collect();
+    for path in files("programs") {
+        let file = name(&path);
+        let program = compile(&file, &std::fs::read_to_string(&path).unwrap());
+        let native = Machine::new(program, Engine::Native);
+        let program = native.program();
+        assert!(program.rules.is_empty() || native.refusal().is_none(), "{file}");
+        for &rule in &program.rules {
+            let rule_name = &program.function(rule).unwrap().name;
+            let row = CLAIMS.iter().find(|(f, r, _)| *f == file && r.is_none_or(|r| r == rule_name));
+            let class = row.map(|row| row.2).or(program.start.map(|_| Class::Own));
+            let class =
+                class.unwrap_or_else(|| panic!("{file} {rule_name} has no row that says which meshes it is for"));
+            let claimed: Vec<_> = meshes.iter().filter(|(_, statistics, _)| supports(class, statistics)).collect();
+            assert!(class == Class::Own || !claimed.is_empty(), "{file}");
+            for (mesh_name, _, mesh) in claimed {
+                check(&native, rule, mesh, &format!("{file} {rule_name} on {mesh_name}"));
+            }
+            if class == Class::Own {
+                check(&native, rule, &Mesh::new(), &format!("{file} {rule_name} on its own mesh"));
+            }
+        }
+    }
+}
+
+/// `start` and three steps on both engines, as far as the mesh stays small.
+#[track_caller]
+fn check(native: &Machine, rule: vv::ir::FunctionId, mesh: &Mesh, at: &str) {
+    let program = native.program();
+    let mut mesh = mesh.clone();
+    let start = program.start.map(|start| (start, 0));
+    for (function, generation) in start.into_iter().chain((1..=3).map(|n| (rule, n))) {
+        if mesh.vertex_count() > 1500 {
+            break;
+        }
+        let settings = Settings { seed: 7, ..Settings::default() };
+        let run = |failure: vv::engine::Failure| panic!("{at}: {:?}", failure.diagnostic);
+        let interpreted =
+            vv::engine::run(program, function, &mesh, generation, &settings, &mut Vec::new()).unwrap_or_else(run);
+        mesh = native.run(function, &mesh, generation, &settings, &mut Vec::new()).unwrap_or_else(run);
+        assert_eq!(interpreted.positions(), mesh.positions(), "{at}");
+        for v in mesh.vertices() {
+            assert_eq!(interpreted.ring(v).slots(), mesh.ring(v).slots(), "{at}");
+        }
+        let warnings = close(&mut mesh, &Stop::new()).unwrap();
+        assert!(warnings.is_empty(), "{at}, step {generation}: {warnings:?}");
+        assert!(!mesh.set.is_empty() && count(&mesh).valid, "{at}, step {generation}");
+    }
+}

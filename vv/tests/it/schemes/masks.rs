@@ -1,0 +1,190 @@
+//! The masks of every scheme, on every valence from 3 to 12 inside and on every number of sectors at a boundary.
+
+use vv::mesh::Value;
+
+use super::published::{self, Curve, Refined};
+use super::surface::{Around, Surface, star, wire};
+use super::{Scheme, compare};
+
+/// Inner vertices of valence 3 to 12 and boundary vertices of 1 to 8 sectors, in a regular neighbourhood `size` wide.
+fn stars(around: Around, size: usize) -> impl Iterator<Item = (String, Surface)> {
+    let inner = (3..=12).map(move |n| (format!("valence {n}"), star(n, size, around, false)));
+    let boundary = (1..=8).map(move |k| (format!("{k} sectors at the boundary"), star(k, size, around, true)));
+    inner.chain(boundary)
+}
+
+#[track_caller]
+fn check(name: &str, scheme: &Scheme, surface: &Surface, expected: &Refined) {
+    let result = scheme.measure(&surface.mesh()).and_then(|measured| compare(&measured, expected));
+    if let Err(difference) = result {
+        panic!("{name}: {difference}");
+    }
+}
+
+#[test]
+fn loop_() {
+    let scheme = Scheme::new("loop.vv", "loop");
+    for (name, surface) in stars(Around::Triangles, 2) {
+        check(&name, &scheme, &surface, &published::loop_(&surface, false));
+    }
+}
+
+#[test]
+fn loop_of_the_paper() {
+    let scheme = Scheme::new("paper-loop.vv", "loop");
+    for name in ["octahedron.obj", "tetrahedron.obj", "icosahedron.obj", "tetrapod.obj"] {
+        let surface = Surface::asset(name);
+        check(name, &scheme, &surface, &published::loop_(&surface, false));
+    }
+}
+
+#[test]
+fn loop_with_nothing_sharp() {
+    let scheme = Scheme::new("loop-creases.vv", "loop_creases");
+    for (name, surface) in stars(Around::Triangles, 2) {
+        check(&name, &scheme, &surface, &published::loop_(&surface, false));
+    }
+}
+
+#[test]
+fn loop_with_tangents_at_the_boundary() {
+    let scheme = Scheme::new("loop-creases.vv", "loop_creases").with("smooth_boundary", Value::Bool(true));
+    for (name, surface) in stars(Around::Triangles, 2) {
+        check(&name, &scheme, &surface, &published::loop_(&surface, true));
+    }
+}
+
+#[test]
+fn loop_with_creases() {
+    let scheme = Scheme::new("loop-creases.vv", "loop_creases");
+    for sharp in [
+        &[1.0][..],
+        &[0.4],
+        &[2.0, 2.0],
+        &[0.25, 1.5],
+        &[0.3, 0.5],
+        &[1.0, 1.0],
+        &[10.0, 0.5],
+        &[3.0; 3],
+        &[0.5, 2.0, 2.0],
+        &[0.5, 0.75, 2.0],
+        &[0.1, 0.2, 0.9],
+        &[10.0, 10.0, 0.5, 1.0],
+    ] {
+        for (name, mut surface) in
+            [("inside", star(5, 2, Around::Triangles, false)), ("boundary", star(4, 2, Around::Triangles, true))]
+        {
+            let ring = surface.neighbours(0);
+            let inner = ring.iter().filter(|&&q| !surface.is_boundary_edge(0, q));
+            surface.sharpness = inner.zip(sharp).map(|(&q, &s)| ((0, q), s)).collect();
+            check(&format!("{name} {sharp:?}"), &scheme, &surface, &published::loop_(&surface, false));
+        }
+    }
+}
+
+#[test]
+fn butterfly() {
+    let scheme = Scheme::new("butterfly.vv", "butterfly");
+    for (name, surface) in stars(Around::Triangles, 2) {
+        check(&name, &scheme, &surface, &published::butterfly(&surface));
+    }
+    for name in ["octahedron.obj", "icosahedron.obj", "tetrapod.obj", "cube-open.obj"] {
+        let surface = Surface::asset(name);
+        check(name, &scheme, &surface, &published::butterfly(&surface));
+    }
+}
+
+#[test]
+fn butterfly_of_the_paper() {
+    let scheme = Scheme::new("paper-butterfly.vv", "butterfly");
+    let surface = Surface::asset("torus.obj"); // its valences are 6
+    check("torus", &scheme, &surface, &published::butterfly(&surface));
+}
+
+#[test]
+fn sqrt3() {
+    let scheme = Scheme::new("sqrt3.vv", "sqrt3");
+    for (name, surface) in stars(Around::Triangles, 2) {
+        check(&name, &scheme, &surface, &published::sqrt3(&surface, false));
+        let once = scheme.step(&surface.mesh()).unwrap();
+        let twice = scheme.measure(&once).and_then(|m| compare(&m, &published::sqrt3(&Surface::of(&once), true)));
+        twice.unwrap_or_else(|difference| panic!("{name}, second step: {difference}"));
+    }
+}
+
+#[test]
+fn sqrt3_of_the_paper() {
+    let scheme = Scheme::new("paper-sqrt3.vv", "sqrt3");
+    for name in ["octahedron.obj", "tetrahedron.obj", "icosahedron.obj", "tetrapod.obj"] {
+        let surface = Surface::asset(name);
+        check(name, &scheme, &surface, &published::sqrt3(&surface, false));
+    }
+}
+
+#[test]
+fn midedge() {
+    let scheme = Scheme::new("midedge.vv", "midedge");
+    for (name, surface) in stars(Around::Triangles, 2).chain(stars(Around::Quads, 2)) {
+        check(&name, &scheme, &surface, &published::midedge(&surface));
+    }
+    for name in ["dodecahedron.obj", "genus-2-quads.obj"] {
+        let surface = Surface::asset(name);
+        check(name, &scheme, &surface, &published::midedge(&surface));
+    }
+}
+
+#[test]
+fn limits() {
+    let scheme = Scheme::new("limit.vv", "loop_limit");
+    for (name, surface) in stars(Around::Triangles, 2) {
+        check(&name, &scheme, &surface, &published::loop_limit(&surface));
+    }
+    let scheme = Scheme::new("limit.vv", "catmull_clark_limit");
+    for (name, surface) in stars(Around::Quads, 2) {
+        check(&name, &scheme, &surface, &published::catmull_clark_limit(&surface));
+    }
+}
+
+#[test]
+fn smoothing() {
+    let scheme = Scheme::new("smooth.vv", "laplace").with("lambda", Value::Double(0.25));
+    for (name, surface) in stars(Around::Quads, 2) {
+        check(&name, &scheme, &surface, &published::laplace(&surface, 0.25));
+    }
+}
+
+/// Polygons, closed and open, and three wires that meet.
+fn curves() -> Vec<(String, Curve)> {
+    let closed = (3..8).map(|n| (format!("closed {n}"), (0..n).map(|i| vec![(i + n - 1) % n, (i + 1) % n]).collect()));
+    let neighbours =
+        |n: usize, i: usize| [i.checked_sub(1), (i + 1 < n).then_some(i + 1)].into_iter().flatten().collect();
+    let open = (2..7).map(|n| (format!("open {n}"), (0..n).map(|i| neighbours(n, i)).collect()));
+    let fork = vec![vec![1, 2, 3], vec![0, 4], vec![0, 5], vec![0, 6], vec![1], vec![2], vec![3]];
+    closed.chain(open).chain([("a fork".to_owned(), fork)]).collect()
+}
+
+#[track_caller]
+fn check_curve(rule: &'static str, published: impl Fn(&Curve) -> Refined) {
+    let scheme = Scheme::new("curves.vv", rule);
+    for (name, curve) in curves() {
+        let result = scheme.measure(&wire(&curve)).and_then(|measured| compare(&measured, &published(&curve)));
+        if let Err(difference) = result {
+            panic!("{name}: {difference}");
+        }
+    }
+}
+
+#[test]
+fn cubic_curves() {
+    check_curve("cubic", published::cubic);
+}
+
+#[test]
+fn four_point_curves() {
+    check_curve("four_point", |curve| published::four_point(curve, 1.0 / 16.0));
+}
+
+#[test]
+fn chaikin_curves() {
+    check_curve("chaikin", published::chaikin);
+}

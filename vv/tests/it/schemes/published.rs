@@ -1,0 +1,342 @@
+//! Published rules as closed forms on polygons, written without a look at the programs that are compared with them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::{PI, TAU};
+
+use super::surface::Surface;
+
+/// A refined mesh: its vertices as weights of the old ones, and how they hang together.
+#[derive(Debug, Default, Clone)]
+pub struct Refined {
+    pub masks: Vec<Vec<f64>>,
+    pub edges: BTreeSet<(usize, usize)>,
+    pub faces: Vec<Vec<usize>>,
+}
+
+/// Weights of some vertices out of `n`; one may be named several times.
+fn mask(n: usize, weights: impl IntoIterator<Item = (usize, f64)>) -> Vec<f64> {
+    let mut mask = vec![0.0; n];
+    weights.into_iter().for_each(|(v, w)| mask[v] += w);
+    mask
+}
+
+/// The sum of masks, each times a factor.
+fn blend<'a>(parts: impl IntoIterator<Item = (f64, &'a Vec<f64>)>) -> Vec<f64> {
+    let mut sum = Vec::new();
+    for (factor, part) in parts {
+        sum.resize(part.len(), 0.0);
+        sum.iter_mut().zip(part).for_each(|(s, w)| *s += factor * w);
+    }
+    sum
+}
+
+impl Refined {
+    fn of(masks: Vec<Vec<f64>>, faces: Vec<Vec<usize>>) -> Self {
+        let pairs = |f: &Vec<usize>| (0..f.len()).map(|i| (f[i], f[(i + 1) % f.len()])).collect::<Vec<_>>();
+        let edges = faces.iter().flat_map(pairs).map(|(p, q)| (p.min(q), p.max(q))).collect();
+        Self { masks, edges, faces }
+    }
+}
+
+/// Each triangle becomes four: old vertices keep their numbers, those of edges follow.
+fn quadrisect(
+    surface: &Surface,
+    vertex: impl Fn(usize) -> Vec<f64>,
+    edge: impl Fn(usize, usize) -> Vec<f64>,
+) -> Refined {
+    let n = surface.points.len();
+    let edges = surface.edges();
+    let number: BTreeMap<_, _> = edges.iter().enumerate().map(|(i, &e)| (e, n + i)).collect();
+    let middle = |p: usize, q: usize| number[&(p.min(q), p.max(q))];
+    let mut masks: Vec<_> = (0..n).map(vertex).collect();
+    masks.extend(edges.iter().map(|&(p, q)| edge(p, q)));
+    let mut faces = Vec::new();
+    for face in &surface.faces {
+        let [a, b, c] = face[..] else { panic!("a triangle has three corners") };
+        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+        faces.extend([vec![a, ab, ca], vec![ab, b, bc], vec![ca, bc, c], vec![ab, bc, ca]]);
+    }
+    Refined::of(masks, faces)
+}
+
+/// Loop 1987, with the boundary of the cubic B-spline and the semi-sharp creases of DeRose, Kass and Truong 1998 in the
+/// form OpenSubdiv gives them ("uniform"). With `c1` boundary vertices of k triangles get Biermann, Levin and Zorin's
+/// 3/4 - γ and γ = 1/2 - cos(π/k)/4 on their inner edges.
+pub fn loop_(surface: &Surface, c1: bool) -> Refined {
+    let n = surface.points.len();
+    let sharpness = |p: usize, q: usize| {
+        if surface.is_boundary_edge(p, q) {
+            return f64::INFINITY;
+        }
+        surface.sharpness.get(&(p.min(q), p.max(q))).copied().unwrap_or(0.0)
+    };
+    let rule = |v: usize, age: f64| {
+        let ring = surface.neighbours(v);
+        let sharp: Vec<_> = ring.iter().copied().filter(|&q| sharpness(v, q) > age).collect();
+        match sharp[..] {
+            [] | [_] => {
+                let valence = ring.len() as f64;
+                let c = 3.0 / 8.0 + (TAU / valence).cos() / 4.0;
+                let w = (5.0 / 8.0 - c * c) / valence;
+                mask(n, ring.iter().map(|&q| (q, w)).chain([(v, 1.0 - valence * w)]))
+            }
+            [a, b] => mask(n, [(v, 6.0 / 8.0), (a, 1.0 / 8.0), (b, 1.0 / 8.0)]),
+            _ => mask(n, [(v, 1.0)]),
+        }
+    };
+    let vertex = |v: usize| {
+        let ring = surface.neighbours(v);
+        let ending: Vec<_> = ring.iter().map(|&q| sharpness(v, q)).filter(|&s| s > 0.0 && s <= 1.0).collect();
+        let t = if ending.is_empty() { 1.0 } else { ending.iter().sum::<f64>() / ending.len() as f64 };
+        blend([(t, &rule(v, 0.0)), (1.0 - t, &rule(v, 1.0))])
+    };
+    let edge = |p: usize, q: usize| {
+        let s = sharpness(p, q).min(1.0);
+        let crease = mask(n, [(p, 1.0 / 2.0), (q, 1.0 / 2.0)]);
+        if s == 1.0 {
+            return crease;
+        }
+        let (a, b) = (surface.across(p, q).unwrap(), surface.across(q, p).unwrap());
+        let excess = |v: usize| match surface.boundary(v) {
+            Some(_) if c1 => 1.0 / 8.0 - (PI / (surface.neighbours(v).len() - 1) as f64).cos() / 4.0,
+            _ => 0.0,
+        };
+        let (i, j) = (excess(p), excess(q));
+        let smooth = [(p, 3.0 / 8.0 - i + j), (q, 3.0 / 8.0 + i - j), (a, 1.0 / 8.0), (b, 1.0 / 8.0)];
+        blend([(s, &crease), (1.0 - s, &mask(n, smooth))])
+    };
+    quadrisect(surface, vertex, edge)
+}
+
+/// The butterfly of Dyn, Levin and Gregory 1990, on irregular meshes as modified by Zorin, Schröder and Sweldens 1996,
+/// at boundaries as OpenMesh does.
+pub fn butterfly(surface: &Surface) -> Refined {
+    let n = surface.points.len();
+    let irregular = |v: usize| surface.boundary(v).is_none() && surface.neighbours(v).len() != 6;
+    let fan = |p: usize, q: usize| {
+        let mut ring = surface.neighbours(p);
+        let first = ring.iter().position(|&x| x == q).unwrap();
+        ring.rotate_left(first);
+        let k = ring.len();
+        let weights: Vec<f64> = match k {
+            3 => vec![5.0 / 12.0, -1.0 / 12.0, -1.0 / 12.0],
+            4 => vec![3.0 / 8.0, 0.0, -1.0 / 8.0, 0.0],
+            _ => {
+                let angle = |j: usize| TAU * j as f64 / k as f64;
+                (0..k).map(|j| (0.25 + angle(j).cos() + 0.5 * (2.0 * angle(j)).cos()) / k as f64).collect()
+            }
+        };
+        mask(n, ring.into_iter().zip(weights).chain([(p, 0.75)]))
+    };
+    let edge = |p: usize, q: usize| match (surface.across(p, q), surface.across(q, p)) {
+        (Some(a), Some(b)) if !irregular(p) && !irregular(q) => {
+            let mut weights = vec![(p, 0.5), (q, 0.5), (a, 0.125), (b, 0.125)];
+            // The edge from x to y of a triangle whose third corner is z.
+            for (x, y, z) in [(a, p, q), (q, a, p), (p, b, q), (b, q, p)] {
+                match surface.across(y, x) {
+                    Some(wing) => weights.push((wing, -0.0625)),
+                    None => weights.extend([(x, -0.0625), (y, -0.0625), (z, 0.0625)]),
+                }
+            }
+            mask(n, weights)
+        }
+        (Some(_), Some(_)) => {
+            let fans: Vec<_> = [(p, q), (q, p)].into_iter().filter(|&(p, _)| irregular(p)).collect();
+            let masks: Vec<_> = fans.iter().map(|&(p, q)| fan(p, q)).collect();
+            blend(masks.iter().map(|m| (1.0 / masks.len() as f64, m)))
+        }
+        _ => {
+            let beyond = |p: usize, q: usize| surface.boundary(p).unwrap().into_iter().find(|&x| x != q).unwrap();
+            let outer = [(beyond(p, q), -1.0 / 16.0), (beyond(q, p), -1.0 / 16.0)];
+            mask(n, [(p, 9.0 / 16.0), (q, 9.0 / 16.0)].into_iter().chain(outer))
+        }
+    };
+    quadrisect(surface, |v| mask(n, [(v, 1.0)]), edge)
+}
+
+/// Kobbelt's √3 (2000); `odd` steps trisect the boundary.
+pub fn sqrt3(surface: &Surface, odd: bool) -> Refined {
+    let n = surface.points.len();
+    let vertex = |v: usize| match surface.boundary(v) {
+        None => {
+            let ring = surface.neighbours(v);
+            let alpha = (4.0 - 2.0 * (TAU / ring.len() as f64).cos()) / 9.0;
+            let w = alpha / ring.len() as f64;
+            mask(n, ring.into_iter().map(|q| (q, w)).chain([(v, 1.0 - alpha)]))
+        }
+        Some([a, b]) if odd => mask(n, [(a, 4.0 / 27.0), (v, 19.0 / 27.0), (b, 4.0 / 27.0)]),
+        Some(_) => mask(n, [(v, 1.0)]),
+    };
+    let mut masks: Vec<_> = (0..n).map(vertex).collect();
+    let mut faces = Vec::new();
+    // What lies left of p→q once its triangle is divided: one vertex, or on a trisected edge the one next to p.
+    let mut inner = BTreeMap::new();
+    for face in &surface.faces {
+        let boundary = (0..3).find(|&i| surface.is_boundary_edge(face[i], face[(i + 1) % 3]));
+        match boundary {
+            Some(i) if odd => {
+                let [p, q, c] = [0, 1, 2].map(|j| face[(i + j) % 3]);
+                let [before, after] =
+                    [(p, q), (q, p)].map(|(p, q)| surface.boundary(p).unwrap().into_iter().find(|&x| x != q).unwrap());
+                let [x, y] = [masks.len(), masks.len() + 1];
+                masks.push(mask(n, [(before, 1.0 / 27.0), (p, 16.0 / 27.0), (q, 10.0 / 27.0)]));
+                masks.push(mask(n, [(after, 1.0 / 27.0), (q, 16.0 / 27.0), (p, 10.0 / 27.0)]));
+                faces.push(vec![x, y, c]);
+                inner.insert((q, c), y);
+                inner.insert((c, p), x);
+            }
+            _ => {
+                let c = masks.len();
+                masks.push(mask(n, face.iter().map(|&v| (v, 1.0 / 3.0))));
+                for i in 0..3 {
+                    inner.insert((face[i], face[(i + 1) % 3]), c);
+                }
+            }
+        }
+    }
+    for (&(p, q), &c) in &inner {
+        match inner.get(&(q, p)) {
+            Some(&d) => faces.push(vec![p, d, c]), // the edge was flipped: p, q became c, d
+            None => faces.push(vec![p, q, c]),
+        }
+    }
+    Refined::of(masks, faces)
+}
+
+/// Midedge (Peters and Reif 1997): the ambo of the mesh, without faces of boundary vertices.
+pub fn midedge(surface: &Surface) -> Refined {
+    let n = surface.points.len();
+    let edges = surface.edges();
+    let number: BTreeMap<_, _> = edges.iter().enumerate().map(|(i, &e)| (e, i)).collect();
+    let middle = |p: usize, q: usize| number[&(p.min(q), p.max(q))];
+    let masks = edges.iter().map(|&(p, q)| mask(n, [(p, 0.5), (q, 0.5)])).collect();
+    let around = |f: &Vec<usize>| (0..f.len()).map(|i| middle(f[i], f[(i + 1) % f.len()])).collect();
+    let mut faces: Vec<Vec<usize>> = surface.faces.iter().map(around).collect();
+    let inner = (0..n).filter(|&v| surface.boundary(v).is_none());
+    faces.extend(inner.map(|v| surface.neighbours(v).into_iter().map(|q| middle(v, q)).collect()));
+    Refined::of(masks, faces)
+}
+
+/// Limit positions of Loop's scheme; the boundary's of the cubic B-spline.
+pub fn loop_limit(surface: &Surface) -> Refined {
+    limit(surface, |ring| {
+        let n = ring.len() as f64;
+        let c = 3.0 / 8.0 + (TAU / n).cos() / 4.0;
+        let beta = (5.0 / 8.0 - c * c) / n;
+        let w = 1.0 / (n + 3.0 / (8.0 * beta));
+        ring.iter().map(|&(q, _)| (q, w)).collect()
+    })
+}
+
+/// Limit positions of Catmull and Clark's scheme on quads.
+pub fn catmull_clark_limit(surface: &Surface) -> Refined {
+    limit(surface, |ring| {
+        let n = ring.len() as f64;
+        let w = 1.0 / (n * (n + 5.0));
+        ring.iter().flat_map(|&(q, across)| [(q, 4.0 * w), (across, w)]).collect()
+    })
+}
+
+/// `inner` gives the weights around an inner vertex from its neighbours, each with what follows it in the face left of
+/// the edge there.
+fn limit(surface: &Surface, inner: impl Fn(&[(usize, usize)]) -> Vec<(usize, f64)>) -> Refined {
+    let n = surface.points.len();
+    let vertex = |v: usize| match surface.boundary(v) {
+        Some([a, b]) => mask(n, [(a, 1.0 / 6.0), (v, 4.0 / 6.0), (b, 1.0 / 6.0)]),
+        None => {
+            let ring: Vec<_> = surface.neighbours(v).into_iter().map(|q| (q, surface.across(v, q).unwrap())).collect();
+            let weights = inner(&ring);
+            let rest = 1.0 - weights.iter().map(|(_, w)| w).sum::<f64>();
+            mask(n, weights.into_iter().chain([(v, rest)]))
+        }
+    };
+    Refined::of((0..n).map(vertex).collect(), surface.faces.clone())
+}
+
+/// One step of smoothing by the umbrella operator, along the boundary where there is one.
+pub fn laplace(surface: &Surface, lambda: f64) -> Refined {
+    let n = surface.points.len();
+    let vertex = |v: usize| {
+        let ring = surface.boundary(v).map_or_else(|| surface.neighbours(v), Vec::from);
+        let w = lambda / ring.len() as f64;
+        mask(n, ring.into_iter().map(|q| (q, w)).chain([(v, 1.0 - lambda)]))
+    };
+    Refined::of((0..n).map(vertex).collect(), surface.faces.clone())
+}
+
+/// A curve as the neighbours of each of its points: one where it ends, two inside, more where several meet.
+pub type Curve = Vec<Vec<usize>>;
+
+/// The other neighbour of p than q where p has two.
+fn beyond(curve: &Curve, p: usize, q: usize) -> Option<usize> {
+    match curve[p][..] {
+        [a, b] => Some(if a == q { b } else { a }),
+        _ => None,
+    }
+}
+
+/// Each edge gets a point.
+fn bisect(curve: &Curve, vertex: impl Fn(usize) -> Vec<f64>, edge: impl Fn(usize, usize) -> Vec<f64>) -> Refined {
+    let mut refined = Refined { masks: (0..curve.len()).map(vertex).collect(), ..Refined::default() };
+    for (p, q) in (0..curve.len()).flat_map(|p| curve[p].iter().map(move |&q| (p, q))).filter(|(p, q)| p < q) {
+        let x = refined.masks.len();
+        refined.masks.push(edge(p, q));
+        refined.edges.extend([(p, x), (q, x)]);
+    }
+    refined
+}
+
+/// The cubic B-spline (Lane and Riesenfeld 1980).
+pub fn cubic(curve: &Curve) -> Refined {
+    let n = curve.len();
+    let vertex = |v: usize| match curve[v][..] {
+        [a, b] => mask(n, [(a, 1.0 / 8.0), (v, 3.0 / 4.0), (b, 1.0 / 8.0)]),
+        _ => mask(n, [(v, 1.0)]),
+    };
+    bisect(curve, vertex, |p, q| mask(n, [(p, 0.5), (q, 0.5)]))
+}
+
+/// Dyn, Gregory and Levin 1987.
+pub fn four_point(curve: &Curve, w: f64) -> Refined {
+    let n = curve.len();
+    let edge = |p: usize, q: usize| {
+        let mut weights = vec![(p, 0.5 + w), (q, 0.5 + w)];
+        for (p, q) in [(p, q), (q, p)] {
+            match beyond(curve, p, q) {
+                Some(a) => weights.push((a, -w)),
+                None => weights.extend([(p, -2.0 * w), (q, w)]),
+            }
+        }
+        mask(n, weights)
+    };
+    bisect(curve, |v| mask(n, [(v, 1.0)]), edge)
+}
+
+/// Chaikin 1974.
+pub fn chaikin(curve: &Curve) -> Refined {
+    let n = curve.len();
+    let mut refined = Refined::default();
+    let mut number = BTreeMap::new(); // of the new point near p on the edge to q, and of old points
+    for (p, neighbours) in curve.iter().enumerate() {
+        for &q in neighbours {
+            number.insert((p, Some(q)), refined.masks.len());
+            refined.masks.push(mask(n, [(p, 0.75), (q, 0.25)]));
+        }
+        if neighbours.len() != 2 {
+            number.insert((p, None), refined.masks.len());
+            refined.masks.push(mask(n, [(p, 1.0)]));
+        }
+    }
+    let mut join = |a: usize, b: usize| refined.edges.insert((a.min(b), a.max(b)));
+    for (p, neighbours) in curve.iter().enumerate() {
+        for &q in neighbours {
+            join(number[&(p, Some(q))], number[&(q, Some(p))]);
+            let inward = match number.get(&(p, None)) {
+                Some(&old) => old,
+                None => number[&(p, beyond(curve, p, q))],
+            };
+            join(number[&(p, Some(q))], inward);
+        }
+    }
+    refined
+}
