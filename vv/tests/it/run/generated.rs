@@ -13,20 +13,22 @@ const PROGRAMS: u64 = 400;
 
 #[test]
 fn generated_programs_end_in_a_sound_mesh_or_a_located_error() {
-    let (mut finished, mut failed) = (0, 0);
+    // Without and with rings.
+    let (mut finished, mut failed) = ([0; 2], [0; 2]);
     for seed in 0..PROGRAMS {
-        let text = Writer { random: Random::new(seed, 0), text: String::new() }.program();
+        let rings = seed % 2;
+        let text = Writer::new(seed, rings == 1).program();
         let program = compile(&text);
         let mut outputs = [Vec::new(), Vec::new()];
         let [first, second] = outputs.each_mut().map(|output| run_once(&program, output));
         match (&first, &second) {
             (Ok(a), Ok(b)) => {
-                finished += 1;
+                finished[rings as usize] += 1;
                 assert_eq!(state(a), state(b), "{text}");
                 check_rings(a, &text);
             }
             (Err(a), Err(b)) => {
-                failed += 1;
+                failed[rings as usize] += 1;
                 assert_eq!((a.kind, &a.diagnostic), (b.kind, &b.diagnostic), "{text}");
                 assert!(a.diagnostic.span.is_some(), "{text}");
                 assert!(matches!(a.kind, FailureKind::Program | FailureKind::Budget), "{text}");
@@ -36,7 +38,8 @@ fn generated_programs_end_in_a_sound_mesh_or_a_located_error() {
         assert_eq!(outputs[0], outputs[1], "{text}");
     }
     // Both ends are worth testing.
-    assert!(finished > PROGRAMS / 10 && failed > PROGRAMS / 10, "{finished} finished, {failed} failed");
+    let most = finished.into_iter().chain(failed).all(|n| n > PROGRAMS / 20);
+    assert!(most, "{finished:?} finished, {failed:?} failed");
 }
 
 fn run_once(program: &Program, output: &mut Vec<String>) -> Result<Mesh, Failure> {
@@ -70,21 +73,32 @@ fn check_rings(mesh: &Mesh, text: &str) {
 
 /// Writes random programs.
 pub struct Writer {
-    pub random: Random,
-    pub text: String,
+    random: Random,
+    text: String,
+    /// Whether there are variables of type ring, faces and pairs.
+    rings: bool,
 }
 
 impl Writer {
+    pub fn new(seed: u64, rings: bool) -> Self {
+        Self { random: Random::new(seed, 0), text: String::new(), rings }
+    }
+
     pub fn program(mut self) -> String {
         self.text = format!("vertex {{ vertex mate; int n; }}; edge {{ double s; }};\n{OCTAHEDRON}");
-        self.text.push_str(
-            "static void other(mesh& S, mesh T, vertex a, vertex b, int i, double x) {\n  vertex c = a, d;\n",
-        );
+        let passed = if self.rings { ", ring& r, ring s" } else { "" };
+        let _ =
+            writeln!(self.text, "static void other(mesh& S, mesh T, vertex a, vertex b, int i, double x{passed}) {{");
+        self.text.push_str("  vertex c = a, d;\n");
         self.block(2);
         self.text.push_str(
             "}\nvoid step(mesh& S) {\n  mesh T;\n  vertex a, b, c, d = null;\n  int i = 1; double x = 0.5;\n",
         );
         self.text.push_str("  forall v in S { a = v; b = any in v; c = nextto b in v; if (v$pos.y > 0.5) break; }\n");
+        if self.rings {
+            self.text.push_str("  ring r, s;\n  forall f in faces S { s = f; if (is a in s) break; }\n");
+            self.text.push_str("  forall y in a add y to r;\n");
+        }
         self.block(8);
         self.text.push_str("}\n");
         self.text
@@ -110,6 +124,9 @@ impl Writer {
             let (v, set, condition) = (self.vertex(1), self.set(), self.condition(1));
             let body: Vec<_> = (0..=self.below(3)).map(|_| self.statement(depth - 1)).collect();
             let body = body.join(" ");
+            if self.rings && self.below(2) == 0 {
+                return self.round(&v, &body);
+            }
             return match self.below(5) {
                 0 => format!("if ({condition}) {{ {body} }} else {{ i = -i; }}"),
                 1 => format!("forall w in {set} {{ a = w; {body} }}"),
@@ -123,6 +140,9 @@ impl Writer {
         let side = self.pick(&["after", "before"]);
         let name = self.pick(&["a", "b", "c", "d"]);
         let (number, condition) = (self.number(2), self.condition(1));
+        if self.rings && self.below(3) == 0 {
+            return self.ring_statement(&v, name);
+        }
         match self.below(18) {
             0 => format!("{name} = {v};"),
             1 => format!("make {{{v}, {w}, {item}}} nb_of {name};"),
@@ -140,8 +160,40 @@ impl Writer {
             13 => format!("x = {number};"),
             14 => format!("i = {condition} ? i * 3 : valence {name} - i;"),
             15 => format!("print {v}, i, x, {set}, {condition};"),
+            16 if self.rings => format!("other(S, {set}, {v}, {w}, i, {number}, r, {});", self.pick(&["r", "s"])),
             16 => format!("other(S, {set}, {v}, {w}, i, {number});"),
             _ => format!("{{ vertex y; make {{{v}}} nb_of y; add y to {set}; {name} = y; }}"),
+        }
+    }
+
+    /// A loop over faces or round a ring.
+    fn round(&mut self, v: &str, body: &str) -> String {
+        let (set, ring) = (self.set(), self.pick(&["r", "s", "a", "`b", "c"]));
+        match self.below(7) {
+            0 => format!("forall f in faces {set} {{ s = f; {body} }}"),
+            1 => format!("forall f in faces {set} {{ forall p, q in f {{ a = p; b = q; {body} }} break; }}"),
+            2 => format!("forall f in faces {set} forall p, q in f forall w in f from p, q {{ c = w; {body} break; }}"),
+            3 => format!("forall p, q in {ring} {{ a = q; {body} }}"),
+            4 => format!("if (is {v} in r) forall w in r from {v} {{ b = w; {body} }}"),
+            5 => format!("forall p, w in s from any in s {{ c = w; {body} }}"),
+            _ => format!("forall w in {ring} from {v} {{ a = w; {body} }}"),
+        }
+    }
+
+    fn ring_statement(&mut self, v: &str, name: &str) -> String {
+        let (ring, item) = (self.pick(&["r", "r", "s"]), self.pick(&["a", "b", "c", "(any in r)"]));
+        let side = self.pick(&["after", "before"]);
+        match self.below(10) {
+            0 => format!("add {v} to {ring};"),
+            1 => format!("erase {item} from {ring};"),
+            2 => format!("replace {item} with {v} in {ring};"),
+            3 => format!("splice {v} {side} {item} in {ring};"),
+            4 => format!("make {ring} nb_of {name};"),
+            5 => self.pick(&["r = s;", "s = r;", "s = i > 3 ? r : s;", "{ ring t = r; r = s; s = t; }"]).to_owned(),
+            6 => format!("{name} = nextto {item} in {ring};"),
+            7 => format!("{name} = prevto {item} in {ring};"),
+            8 => format!("i = valence {ring} + (is {v} in {ring} ? 1 : 2);"),
+            _ => format!("print r, s, any in {ring};"),
         }
     }
 
