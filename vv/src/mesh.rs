@@ -19,12 +19,14 @@ pub mod build;
 pub mod close;
 mod column;
 pub mod faces;
+mod finder;
+mod members;
 mod property;
 mod ring;
 mod set;
 pub mod statistics;
+mod survey;
 pub mod triangulate;
-mod twins;
 pub mod validate;
 
 use std::fmt;
@@ -329,9 +331,10 @@ impl Mesh {
     /// Cost: nothing but a scan where the set is the whole universe and the arena is tight.
     pub fn keep_only_set(&mut self) -> usize {
         let n = self.vertex_count();
-        let members = self.set.iter().filter(|v| v.index() < n).count();
+        let whole = self.set.is_all_of(n);
+        let members = if whole { n } else { self.set.iter().filter(|v| v.index() < n).count() };
         let forgotten = n - members;
-        if forgotten == 0 && self.set.len() == members {
+        if whole || (forgotten == 0 && self.set.len() == members) {
             self.rings.tidy();
             return 0;
         }

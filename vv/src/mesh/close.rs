@@ -1,5 +1,7 @@
 //! What happens when a step ends.
 
+use super::members::Members;
+use super::survey::Survey;
 use super::validate::{self, Finding};
 use super::{Mesh, Vertex};
 use crate::diagnostic::{Diagnostic, Severity};
@@ -28,10 +30,11 @@ const DRAWN: usize = 1000;
 pub fn close(mesh: &mut Mesh, stop: &Stop) -> Result<Vec<Diagnostic>, Stopped> {
     let mut warnings = Vec::new();
     warnings.extend(forget(mesh, stop)?);
-    let member = validate::membership(mesh);
-    open(mesh, &validate::open_corners(mesh, &member, stop)?, stop)?;
-    let mut findings = validate::one_sided(mesh, &member, stop)?;
-    findings.extend(validate::not_finite(mesh));
+    let members = Members::new(&mesh.set, mesh.vertex_count());
+    let survey = Survey::new(mesh, &members, stop)?;
+    open(mesh, &validate::open_corners(mesh, &members, &survey, stop)?, stop)?;
+    let mut findings = validate::one_sided(mesh, &members, &survey, stop)?;
+    findings.extend(validate::not_finite(&survey));
     warnings.extend(validate::diagnostics(&findings, mesh));
     Ok(warnings)
 }
@@ -42,13 +45,13 @@ fn forget(mesh: &mut Mesh, stop: &Stop) -> Result<Option<Diagnostic>, Stopped> {
         mesh.keep_only_set();
         return Ok(None);
     }
-    let member = validate::membership(mesh);
+    let members = Members::new(&mesh.set, mesh.vertex_count());
     let mut named = vec![false; mesh.vertex_count()];
     let mut torn = Vec::new(); // those that name them, by their new numbers
     let mut evidence = Vec::new();
-    for (kept, v) in mesh.vertices().filter(|v| member[v.index()]).enumerate() {
+    for (kept, v) in mesh.vertices().filter(|&v| members.contains(v)).enumerate() {
         stop.check()?;
-        let mut lost = mesh.ring(v).vertices().filter(|x| !member.get(x.index()).is_some_and(|&m| m)).peekable();
+        let mut lost = mesh.ring(v).vertices().filter(|&x| !members.contains(x)).peekable();
         if lost.peek().is_some() {
             torn.extend(Vertex::from_index(kept));
         }

@@ -15,9 +15,16 @@
 //! ψ⁻¹(v, w) = (next_v w, v), so r ψ⁻¹ r (w, v) = r ψ⁻¹(v, w) = r(next_v w, v) = (v, next_v w) = φ(w, v). Hence
 //! φ = r ψ⁻¹ r: the orbits of φ are those of ψ with every edge reversed, in reversed order. ∎
 
-use super::twins::{NONE, Twins};
+use super::finder::Finder;
+use super::members::Members;
 use super::{Mesh, Vertex, VertexSet};
 use crate::stop::{Stop, Stopped};
+
+/// Orbits up to this long are walked from each of their corners; only longer ones leave marks.
+const SHORT: usize = 8;
+
+/// No slot.
+const NONE: u32 = u32::MAX;
 
 /// The polygons of a mesh, flat: all corners one after the other.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -89,64 +96,181 @@ pub fn faces(mesh: &Mesh, stop: &Stop) -> Result<Faces, Stopped> {
 /// # Errors
 /// When stopped.
 pub fn faces_of(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<Faces, Stopped> {
-    let links = Twins::new(mesh, set, stop)?;
-    let mut faces = Faces::default();
-    let mut visited = vec![false; links.targets.len()];
-    let mut first = vec![NONE; mesh.vertex_count()]; // the slot at which the first face leaves the vertex
-    let mut path = Vec::new();
+    let mut walker = Walker::new(mesh, Members::new(set, mesh.vertex_count()));
     for v in mesh.vertices() {
         stop.check()?;
-        let range = links.slots(v);
-        let mut s = match first[v.index()] {
-            NONE => range.start,
-            s => s,
-        };
-        for _ in range {
-            if !visited[s as usize] && walk(&links, s, v, &mut visited, &mut path, stop)? {
-                for &(corner, slot) in &path {
-                    faces.corners.push(corner);
-                    if first[corner.index()] == NONE {
-                        first[corner.index()] = slot;
-                    }
-                }
-                faces.ends.push(faces.corners.len() as u32);
-            }
-            s = links.next(s, v);
+        if walker.members.contains(v) {
+            walker.add_faces_from(v, stop)?;
         }
     }
-    Ok(faces)
+    Ok(walker.faces)
 }
 
-/// Walks on from slot `s` of `v`, marks what it meets, and says whether it came back: `path` is then the orbit, each
-/// corner with the slot by which it is left. The step is injective, so a walk that meets an earlier one ran into the
-/// middle of a walk that ends.
-fn walk(
-    links: &Twins,
-    start: u32,
-    v: Vertex,
-    visited: &mut [bool],
-    path: &mut Vec<(Vertex, u32)>,
-    stop: &Stop,
-) -> Result<bool, Stopped> {
-    path.clear();
-    let (mut s, mut v) = (start, v);
-    loop {
-        let Some(next) = links.targets[s as usize] else { return Ok(false) };
-        visited[s as usize] = true;
-        path.push((v, s));
-        if path.len().is_multiple_of(4096) {
-            stop.check()?;
-        }
-        let twin = links.twins[s as usize];
-        if twin == NONE {
-            return Ok(false);
-        }
-        (s, v) = (links.previous(twin, next), next);
-        if s == start {
-            return Ok(true);
-        }
-        if visited[s as usize] {
-            return Ok(false);
+/// Finds the faces of one vertex after the other: those of which it is the oldest corner.
+///
+/// The face on the left of v→x begins at v only if x and the neighbour that follows x are younger than v, for the face
+/// comes back from there. Their places for v are looked up once, and a triangle is seen by comparing what stands beside
+/// them: each pair of neighbours is looked up once, as knowing all twins would take, but nothing is stored.
+struct Walker<'a> {
+    finder: Finder<'a>,
+    members: Members,
+    faces: Faces,
+    /// For each vertex the slot at which its first face leaves it, or [`NONE`].
+    first: Vec<u32>,
+    /// For each slot of the vertex in hand that holds a younger one its place there.
+    places: Vec<u32>,
+    /// The orbit in hand: each corner with the slot by which it is left.
+    path: Vec<(Vertex, u32)>,
+    /// Slots of the arena that long walks have passed; empty while there was none.
+    visited: Vec<bool>,
+}
+
+impl<'a> Walker<'a> {
+    fn new(mesh: &'a Mesh, members: Members) -> Self {
+        let slots = mesh.vertices().filter(|&v| members.contains(v)).map(|v| mesh.ring(v).slots().len()).sum();
+        Self {
+            finder: Finder::new(mesh),
+            members,
+            // Room that is not needed is never touched.
+            faces: Faces { corners: Vec::with_capacity(slots), ends: Vec::with_capacity(slots / 3) },
+            first: vec![NONE; mesh.vertex_count()],
+            places: Vec::new(),
+            path: Vec::new(),
+            visited: Vec::new(),
         }
     }
+
+    fn add_faces_from(&mut self, v: Vertex, stop: &Stop) -> Result<(), Stopped> {
+        let ring = self.finder.ring(v);
+        // One after the other, so that the processor can wait for many at once.
+        self.places.clear();
+        self.places.extend(ring.iter().map(|&slot| match slot {
+            Some(x) if x > v && self.members.contains(x) => self.finder.find(v, x).unwrap_or(NONE),
+            _ => NONE,
+        }));
+        let start = match self.first[v.index()] {
+            NONE => 0,
+            slot => slot as usize,
+        };
+        for i in (start..ring.len()).chain(0..start) {
+            let next = if i + 1 == ring.len() { 0 } else { i + 1 };
+            let (Some(x), Some(w)) = (ring[i], ring[next]) else { continue };
+            let (at_x, at_w) = (self.places[i], self.places[next]);
+            if at_x == NONE || at_w == NONE {
+                continue;
+            }
+            let (leaves_x, to) = before(self.finder.ring(x), at_x);
+            if to == Some(w) && after(self.finder.ring(w), at_w) == Some(x) && x != w {
+                self.add(&[(v, i as u32), (x, leaves_x), (w, at_w)]);
+                continue;
+            }
+            self.path.clear();
+            self.path.extend([(v, i as u32), (x, leaves_x)]);
+            match self.walk_short((w, at_w), to) {
+                Walk::Face => {
+                    let path = std::mem::take(&mut self.path);
+                    self.add(&path);
+                    self.path = path;
+                }
+                Walk::NoFace => {}
+                Walk::Long => {
+                    if self.walk_long(v, i as u32, stop)? {
+                        let path = std::mem::take(&mut self.path);
+                        self.add(&path);
+                        self.path = path;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Walks on to `to` from the end of the path, which began at its oldest corner, until the corner `last`, from which
+    /// the walk goes back to the beginning by that slot.
+    fn walk_short(&mut self, last: (Vertex, u32), mut to: Option<Vertex>) -> Walk {
+        let (w, at_w) = last;
+        let oldest = self.path[0].0;
+        loop {
+            let Some(&(u, _)) = self.path.last() else { return Walk::NoFace };
+            let Some(c) = to else { return Walk::NoFace };
+            if c == w && after(self.finder.ring(w), at_w) == Some(u) {
+                self.path.push(last);
+                return Walk::Face;
+            }
+            // An older corner has this face already, if it is one.
+            if c < oldest || !self.members.contains(c) {
+                return Walk::NoFace;
+            }
+            if c == oldest || self.path.len() >= SHORT {
+                return Walk::Long;
+            }
+            let Some(place) = self.finder.find(u, c) else { return Walk::NoFace };
+            let (leaves, next) = before(self.finder.ring(c), place);
+            self.path.push((c, leaves));
+            to = next;
+        }
+    }
+
+    /// Walks from slot `start` of `v`, marks what it meets, and says whether it came back. The step is injective, so a
+    /// walk that meets an earlier one ran into the middle of a walk that ends, or has been here before.
+    fn walk_long(&mut self, v: Vertex, start: u32, stop: &Stop) -> Result<bool, Stopped> {
+        if self.visited.is_empty() {
+            self.visited = vec![false; self.finder.slot_count()];
+        }
+        self.path.clear();
+        let (mut u, mut slot) = (v, start);
+        loop {
+            let mark = &mut self.visited[self.finder.arena_slot(u, slot)];
+            if std::mem::replace(mark, true) {
+                return Ok(false);
+            }
+            self.path.push((u, slot));
+            if self.path.len().is_multiple_of(4096) {
+                stop.check()?;
+            }
+            let Some(c) = self.finder.ring(u)[slot as usize] else { return Ok(false) };
+            // An older corner has this face already, if it is one.
+            if c < v || !self.members.contains(c) {
+                return Ok(false);
+            }
+            let Some(place) = self.finder.find(u, c) else { return Ok(false) };
+            (u, slot) = (c, before(self.finder.ring(c), place).0);
+            if (u, slot) == (v, start) {
+                return Ok(true);
+            }
+        }
+    }
+
+    fn add(&mut self, path: &[(Vertex, u32)]) {
+        for &(corner, slot) in path {
+            self.faces.corners.push(corner);
+            let first = &mut self.first[corner.index()];
+            if *first == NONE {
+                *first = slot;
+            }
+        }
+        self.faces.ends.push(self.faces.corners.len() as u32);
+    }
+}
+
+/// What has become of a walk.
+enum Walk {
+    /// It came back: the path is a face.
+    Face,
+    /// It met a gap, an incomplete neighbour or an older corner.
+    NoFace,
+    /// It is long, or passes its oldest corner more than once.
+    Long,
+}
+
+/// The slot before `i` in a ring, and what stands there.
+fn before(ring: &[Option<Vertex>], i: u32) -> (u32, Option<Vertex>) {
+    let before = if i == 0 { ring.len() as u32 - 1 } else { i - 1 };
+    (before, ring[before as usize])
+}
+
+/// What stands after slot `i` in a ring.
+fn after(ring: &[Option<Vertex>], i: u32) -> Option<Vertex> {
+    let after = i as usize + 1;
+    ring[if after == ring.len() { 0 } else { after }]
 }

@@ -115,7 +115,7 @@ pub(crate) struct Head {
 }
 
 impl Head {
-    fn range(self) -> std::ops::Range<usize> {
+    pub(super) fn range(self) -> std::ops::Range<usize> {
         self.offset as usize..self.offset as usize + self.len as usize
     }
 }

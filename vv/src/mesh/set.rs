@@ -51,6 +51,13 @@ impl VertexSet {
         self.0.contains(v)
     }
 
+    /// Whether these are the first `n` vertices of the universe, added in order of creation; `false` says nothing. O(1).
+    pub(super) fn is_all_of(&self, n: usize) -> bool {
+        // Ascending, without holes, and the last one is the n-th.
+        let last = self.0.order.last().copied().flatten();
+        self.0.places.is_none() && self.0.order.len() == n && last.is_none_or(|v| v.index() + 1 == n)
+    }
+
     /// The members in order of addition as they lie in memory, `None` where one was removed.
     pub(crate) fn order(&self) -> &[Option<Vertex>] {
         &self.0.order

@@ -1,10 +1,11 @@
 //! Counts and invariants of a mesh.
 
-use std::collections::BTreeMap;
-
 use super::faces::Faces;
-use super::twins::{NONE, Twins};
-use super::{Mesh, Vertex, validate};
+use super::finder::Finder;
+use super::members::Members;
+use super::survey::{Histogram, Survey};
+use super::validate::{self, Finding};
+use super::{Mesh, Vertex};
 use crate::stop::{Stop, Stopped};
 
 /// What a mesh is made of. Counts are over its set.
@@ -41,41 +42,18 @@ pub struct Statistics {
 /// # Errors
 /// When stopped.
 pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics, Stopped> {
-    let valid = validate::validate(mesh, stop)?.is_empty();
-    let links = Twins::new(mesh, &mesh.set, stop)?;
-    let member = validate::membership(mesh);
-    let members = || mesh.vertices().filter(|v| member[v.index()]);
-    let mut half_edges = 0; // ends of edges that both name
-    let mut one_sided = 0;
-    let mut components = Components::new(mesh.vertex_count());
-    let mut merged = 0;
-    let mut isolated = 0;
-    let mut valences = BTreeMap::new();
-    for v in members() {
-        stop.check()?;
-        let valence = mesh.ring(v).valence();
-        *valences.entry(valence).or_insert(0) += 1;
-        isolated += usize::from(valence == 0);
-        for s in links.slots(v) {
-            let Some(x) = links.targets[s as usize].filter(|x| member.get(x.index()).is_some_and(|&m| m)) else {
-                continue;
-            };
-            if links.twins[s as usize] == NONE {
-                one_sided += 1;
-            } else {
-                half_edges += 1;
-            }
-            merged += usize::from(components.join(v, x));
-        }
-    }
-    let mut face_degrees = BTreeMap::new();
-    for face in faces.iter() {
-        *face_degrees.entry(face.len()).or_insert(0) += 1;
-    }
-    let vertices = members().count();
-    let edges = half_edges / 2 + one_sided;
-    let components = vertices - merged;
-    let boundary_loops = boundary_loops(mesh, &links, stop)?;
+    let members = Members::new(&mesh.set, mesh.vertex_count());
+    let survey = Survey::new(mesh, &members, stop)?;
+    let findings = validate::findings(mesh, &members, &survey, stop)?;
+    let valid = findings.is_empty();
+    let one_sided = findings.iter().filter(|f| matches!(f, Finding::OneSided { .. })).count();
+    let vertices = survey.valences.total();
+    let edges = (survey.entries - one_sided) / 2 + one_sided;
+    let isolated = survey.valences.zeros();
+    let components = vertices - merges(mesh, &members, one_sided == 0, stop)?;
+    let boundary_loops = boundary_loops(mesh, &members, &survey, stop)?;
+    let mut face_degrees = Histogram::default();
+    faces.iter().for_each(|face| face_degrees.count(face.len()));
     let euler_characteristic = (vertices + faces.len() + isolated) as i64 - edges as i64;
     let handles = 2 * components as i64 - euler_characteristic - boundary_loops as i64;
     Ok(Statistics {
@@ -86,43 +64,63 @@ pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics,
         boundary_loops,
         euler_characteristic,
         genus: if valid { u64::try_from(handles / 2).ok() } else { None },
-        closed: one_sided == 0 && !links.targets.contains(&None),
+        closed: one_sided == 0 && survey.with_gaps.is_empty(),
         valid,
-        valences: valences.into_iter().collect(),
-        face_degrees: face_degrees.into_iter().collect(),
+        valences: survey.valences.into_pairs(),
+        face_degrees: face_degrees.into_pairs(),
     })
 }
 
-/// Counts the orbits that meet a gap and go on behind it.
-fn boundary_loops(mesh: &Mesh, links: &Twins, stop: &Stop) -> Result<usize, Stopped> {
-    let mut visited = vec![false; links.targets.len()];
+/// Counts the orbits that meet a gap and go on behind it. Cost: the slots of vertices with gaps, and these walks.
+fn boundary_loops(mesh: &Mesh, members: &Members, survey: &Survey, stop: &Stop) -> Result<usize, Stopped> {
+    if survey.with_gaps.is_empty() {
+        return Ok(0);
+    }
+    let finder = Finder::new(mesh);
+    let mut visited = vec![false; finder.slot_count()];
     let mut loops = 0;
-    for v in mesh.vertices() {
+    for &v in &survey.with_gaps {
         stop.check()?;
-        for s in links.slots(v) {
+        let ring = finder.ring(v);
+        for i in 0..ring.len() {
             // Each loop is entered at one of its gaps: by the edge before it in the ring.
-            if links.targets[s as usize].is_some() {
+            if ring[i].is_some() {
                 continue;
             }
-            let start = links.previous(s, v);
-            let mut s = start;
-            while !visited[s as usize] {
-                visited[s as usize] = true;
-                let (Some(next), twin) = (links.targets[s as usize], links.twins[s as usize]) else { break };
-                if twin == NONE {
-                    break;
+            let start = (v, if i == 0 { ring.len() - 1 } else { i - 1 });
+            let (mut u, mut slot) = start;
+            while !std::mem::replace(&mut visited[finder.arena_slot(u, slot as u32)], true) {
+                let Some(next) = finder.ring(u)[slot].filter(|&x| members.contains(x)) else { break };
+                let Some(place) = finder.find(u, next) else { break };
+                let ring = finder.ring(next);
+                let before = |slot: usize| if slot == 0 { ring.len() - 1 } else { slot - 1 };
+                (u, slot) = (next, before(place as usize));
+                if ring[slot].is_none() {
+                    slot = before(slot);
                 }
-                s = links.previous(twin, next);
-                if links.targets[s as usize].is_none() {
-                    s = links.previous(s, next);
-                }
-                if s == start {
+                if (u, slot) == start {
                     loops += 1;
                 }
             }
         }
     }
     Ok(loops)
+}
+
+/// By how much neighbourhood brings the number of components below that of the vertices. Where neighbours `answer`, each
+/// pair is looked at once.
+fn merges(mesh: &Mesh, members: &Members, answer: bool, stop: &Stop) -> Result<usize, Stopped> {
+    let mut components = Components::new(mesh.vertex_count());
+    let mut merged = 0;
+    for v in mesh.vertices().filter(|&v| members.contains(v)) {
+        stop.check()?;
+        for x in mesh.ring(v).vertices() {
+            if (x < v || !answer) && members.contains(x) {
+                merged += usize::from(components.join(v, x));
+            }
+        }
+    }
+    Ok(merged)
 }
 
 /// Union-find with path halving.

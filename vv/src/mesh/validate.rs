@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use super::twins::Finder;
+use super::finder::Finder;
+use super::members::Members;
+use super::survey::Survey;
 use super::{Mesh, Vertex};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::stop::{Stop, Stopped};
@@ -74,23 +76,36 @@ pub enum Finding {
 /// # Errors
 /// When stopped.
 pub fn validate(mesh: &Mesh, stop: &Stop) -> Result<Vec<Finding>, Stopped> {
-    let mut findings = Vec::new();
+    let members = Members::new(&mesh.set, mesh.vertex_count());
+    let survey = Survey::new(mesh, &members, stop)?;
+    findings(mesh, &members, &survey, stop)
+}
+
+/// As [`validate`].
+pub(super) fn findings(
+    mesh: &Mesh,
+    members: &Members,
+    survey: &Survey,
+    stop: &Stop,
+) -> Result<Vec<Finding>, Stopped> {
     let n = mesh.vertex_count();
-    findings.extend(mesh.set.iter().filter(|v| v.index() >= n).map(|vertex| Finding::Foreign { vertex }));
-    let member = membership(mesh);
+    let mut findings = Vec::new();
+    if let Members::Some(_) = members {
+        findings.extend(mesh.set.iter().filter(|v| v.index() >= n).map(|vertex| Finding::Foreign { vertex }));
+    }
     for v in mesh.vertices() {
         stop.check()?;
-        if !ring_is_sound(mesh, v) {
+        if !ring_is_sound(mesh.ring(v).slots(), v) {
             findings.push(Finding::Ring { vertex: v });
         }
     }
-    for v in mesh.vertices().filter(|v| member[v.index()]) {
-        let outside = mesh.ring(v).vertices().filter(|x| !member.get(x.index()).is_some_and(|&m| m));
+    for &v in &survey.torn {
+        let outside = mesh.ring(v).vertices().filter(|&x| !members.contains(x));
         findings.extend(outside.map(|to| Finding::Outside { from: v, to }));
     }
-    findings.extend(one_sided(mesh, &member, stop)?);
-    findings.extend(open_corners(mesh, &member, stop)?);
-    findings.extend(not_finite(mesh));
+    findings.extend(one_sided(mesh, members, survey, stop)?);
+    findings.extend(open_corners(mesh, members, survey, stop)?);
+    findings.extend(not_finite(survey));
     Ok(findings)
 }
 
@@ -203,70 +218,46 @@ pub(super) fn show_ring(mesh: &Mesh, v: Vertex) -> String {
     text
 }
 
-/// For each vertex of the universe whether it is in the set.
-pub(super) fn membership(mesh: &Mesh) -> Vec<bool> {
-    let mut member = vec![false; mesh.vertex_count()];
-    for v in mesh.set.iter() {
-        if let Some(m) = member.get_mut(v.index()) {
-            *m = true;
-        }
-    }
-    member
-}
-
-pub(super) fn not_finite(mesh: &Mesh) -> impl Iterator<Item = Finding> {
-    let mut ordered: Vec<_> = mesh.set.iter().filter(|&v| !mesh.position(v).is_finite()).collect();
-    ordered.sort_unstable();
-    ordered.into_iter().map(|vertex| Finding::NotFinite { vertex })
+pub(super) fn not_finite(survey: &Survey) -> impl Iterator<Item = Finding> {
+    survey.not_finite.iter().map(|&vertex| Finding::NotFinite { vertex })
 }
 
 /// The entries of members that name members which do not name them.
-///
-/// First asks whether there is any: an entry u→v counts +h(u, v) if u < v, else −h(v, u), for a mixing function h. As
-/// no ring names a vertex twice, the sum is 0 where all pairs answer, and otherwise 0 by a chance of 2⁻⁶⁴. That takes
-/// one pass in order of memory, where looking for each entry's twin jumps about.
-pub(super) fn one_sided(mesh: &Mesh, member: &[bool], stop: &Stop) -> Result<Vec<Finding>, Stopped> {
-    let is_member = |v: &Vertex| member.get(v.index()).is_some_and(|&m| m);
-    let mut sum = 0u64;
-    for v in mesh.vertices().filter(is_member) {
-        stop.check()?;
-        for x in mesh.ring(v).vertices().filter(is_member) {
-            sum = if v < x { sum.wrapping_add(mix(v, x)) } else { sum.wrapping_sub(mix(x, v)) };
-        }
-    }
+pub(super) fn one_sided(
+    mesh: &Mesh,
+    members: &Members,
+    survey: &Survey,
+    stop: &Stop,
+) -> Result<Vec<Finding>, Stopped> {
     let mut findings = Vec::new();
-    if sum != 0 {
+    if survey.balance != 0 {
         let finder = Finder::new(mesh);
-        for v in mesh.vertices().filter(is_member) {
+        for v in mesh.vertices().filter(|&v| members.contains(v)) {
             stop.check()?;
-            let lonely = mesh.ring(v).vertices().filter(is_member).filter(|&x| finder.find(v, x).is_none());
+            let answered = |&x: &Vertex| !members.contains(x) || finder.find(v, x).is_some();
+            let lonely = mesh.ring(v).vertices().filter(|x| !answered(x));
             findings.extend(lonely.map(|to| Finding::OneSided { from: v, to }));
         }
     }
     Ok(findings)
 }
 
-/// The finalizer of splitmix64 over both numbers.
-fn mix(u: Vertex, v: Vertex) -> u64 {
-    let x = ((u.index() as u64) << 32 | v.index() as u64).wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
-}
-
 /// The corners that are no gaps on walks which have a gap at both ends, in order of creation of the vertices and then
 /// along the rings. Cost: the slots of vertices with gaps, and the walks that begin there.
-pub(super) fn open_corners(mesh: &Mesh, member: &[bool], stop: &Stop) -> Result<Vec<Finding>, Stopped> {
-    let is_member = |v: &Vertex| member.get(v.index()).is_some_and(|&m| m);
+pub(super) fn open_corners(
+    mesh: &Mesh,
+    members: &Members,
+    survey: &Survey,
+    stop: &Stop,
+) -> Result<Vec<Finding>, Stopped> {
+    if survey.with_gaps.is_empty() {
+        return Ok(Vec::new());
+    }
+    let finder = Finder::new(mesh);
     let mut corners = Vec::new();
-    let mut finder = None;
-    for v in mesh.vertices().filter(is_member) {
+    for &v in &survey.with_gaps {
         stop.check()?;
         let slots = mesh.ring(v).slots();
-        if !matches!(slots.last(), Some(None)) {
-            continue;
-        }
-        let finder = finder.get_or_insert_with(|| Finder::new(mesh));
         for i in 0..slots.len() {
             let next = if i + 1 == slots.len() { 0 } else { i + 1 };
             let Some(to) = slots[i] else { continue };
@@ -274,7 +265,7 @@ pub(super) fn open_corners(mesh: &Mesh, member: &[bool], stop: &Stop) -> Result<
                 continue;
             }
             let begin = corners.len();
-            if !walk_to_gap(mesh, finder, &is_member, (v, to), &mut corners, stop)? {
+            if !walk_to_gap(&finder, members, (v, to), &mut corners, stop)? {
                 corners.truncate(begin);
             }
         }
@@ -287,9 +278,8 @@ pub(super) fn open_corners(mesh: &Mesh, member: &[bool], stop: &Stop) -> Result<
 /// Walks on from an edge that leaves a gap until the next gap, and lists the corners passed: vertex, slot and
 /// neighbour after which a gap is missing. Whether a gap was reached, not an incomplete neighbour.
 fn walk_to_gap(
-    mesh: &Mesh,
     finder: &Finder<'_>,
-    is_member: &dyn Fn(&Vertex) -> bool,
+    members: &Members,
     (mut u, mut v): (Vertex, Vertex),
     corners: &mut Vec<(Vertex, usize, Vertex)>,
     stop: &Stop,
@@ -298,27 +288,43 @@ fn walk_to_gap(
         if corners.len().is_multiple_of(4096) {
             stop.check()?;
         }
-        if !is_member(&v) {
+        if !members.contains(v) {
             return Ok(false);
         }
         let Some(i) = finder.find(u, v) else { return Ok(false) };
-        let slots = mesh.ring(v).slots();
-        let before = if i == 0 { slots.len() - 1 } else { i - 1 };
+        let slots = finder.ring(v);
+        let before = if i == 0 { slots.len() - 1 } else { i as usize - 1 };
         let Some(w) = slots[before] else { return Ok(true) };
         corners.push((v, before, w));
         (u, v) = (v, w);
     }
 }
 
-fn ring_is_sound(mesh: &Mesh, v: Vertex) -> bool {
-    let slots = mesh.ring(v).slots();
-    let mut names: Vec<Vertex> = slots.iter().copied().flatten().collect();
-    let len = names.len();
-    names.sort_unstable();
-    names.dedup();
+fn ring_is_sound(slots: &[Option<Vertex>], v: Vertex) -> bool {
+    if slots.contains(&Some(v)) || has_twins(slots) {
+        return false;
+    }
+    if !slots.contains(&None) {
+        return true;
+    }
     let gaps_apart = (0..slots.len()).all(|i| slots[i].is_some() || slots[(i + 1) % slots.len()].is_some());
-    let first_gap_at_end = !slots.contains(&None) || slots.last() == Some(&None);
-    names.len() == len && !names.contains(&v) && gaps_apart && first_gap_at_end
+    gaps_apart && slots.last() == Some(&None)
+}
+
+/// Whether a vertex is there twice.
+fn has_twins(slots: &[Option<Vertex>]) -> bool {
+    // Most rings tell that they have none by the last bits of their vertices.
+    let names = || slots.iter().copied().flatten();
+    let bits = names().fold(0u64, |bits, x| bits | 1 << (x.index() % 64));
+    if bits.count_ones() as usize == names().count() {
+        return false;
+    }
+    if slots.len() <= 16 {
+        return (1..slots.len()).any(|i| slots[i].is_some() && slots[..i].contains(&slots[i]));
+    }
+    let mut names: Vec<Vertex> = names().collect();
+    names.sort_unstable();
+    !names.is_sorted_by(|a, b| a < b)
 }
 
 fn are(n: usize) -> &'static str {
