@@ -242,14 +242,12 @@ impl<'a> Walker<'a> {
     }
 
     fn add(&mut self, path: &[(Vertex, u32)]) {
-        for &(corner, slot) in path {
-            self.faces.corners.push(corner);
-            let first = &mut self.first[corner.index()];
-            if *first == NONE {
-                *first = slot;
-            }
-        }
+        self.faces.corners.extend(path.iter().map(|&(corner, _)| corner));
         self.faces.ends.push(self.faces.corners.len() as u32);
+        for &(corner, slot) in path {
+            let first = &mut self.first[corner.index()];
+            *first = if *first == NONE { slot } else { *first };
+        }
     }
 }
 

@@ -51,6 +51,7 @@ impl<'a> Finder<'a> {
     }
 
     /// The slot of `x` in the ring of `v`.
+    #[inline]
     pub(super) fn find(&self, x: Vertex, v: Vertex) -> Option<u32> {
         let head = self.heads.get(v.index())?;
         // Without a branch for each slot, whose outcome nobody can foretell. What lies behind a short ring is another's.
@@ -65,8 +66,14 @@ impl<'a> Finder<'a> {
             let i = hits.trailing_zeros();
             return (i < head.len).then_some(i);
         }
-        if head.len <= SHORT {
-            return self.ring(v).iter().position(|&slot| slot == Some(x)).map(|i| i as u32);
+        self.find_in_long(x, v)
+    }
+
+    #[inline(never)]
+    fn find_in_long(&self, x: Vertex, v: Vertex) -> Option<u32> {
+        let ring = self.ring(v);
+        if ring.len() <= SHORT as usize {
+            return ring.iter().position(|&slot| slot == Some(x)).map(|i| i as u32);
         }
         let index = self.long.get(&v)?;
         let i = index.binary_search_by_key(&x, |&(y, _)| y).ok()?;
