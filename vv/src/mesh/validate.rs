@@ -82,12 +82,7 @@ pub fn validate(mesh: &Mesh, stop: &Stop) -> Result<Vec<Finding>, Stopped> {
 }
 
 /// As [`validate`].
-pub(super) fn findings(
-    mesh: &Mesh,
-    members: &Members,
-    survey: &Survey,
-    stop: &Stop,
-) -> Result<Vec<Finding>, Stopped> {
+pub(super) fn findings(mesh: &Mesh, members: &Members, survey: &Survey, stop: &Stop) -> Result<Vec<Finding>, Stopped> {
     let n = mesh.vertex_count();
     let mut findings = Vec::new();
     if let Members::Some(_) = members {
@@ -223,12 +218,7 @@ pub(super) fn not_finite(survey: &Survey) -> impl Iterator<Item = Finding> {
 }
 
 /// The entries of members that name members which do not name them.
-pub(super) fn one_sided(
-    mesh: &Mesh,
-    members: &Members,
-    survey: &Survey,
-    stop: &Stop,
-) -> Result<Vec<Finding>, Stopped> {
+pub(super) fn one_sided(mesh: &Mesh, members: &Members, survey: &Survey, stop: &Stop) -> Result<Vec<Finding>, Stopped> {
     let mut findings = Vec::new();
     if survey.balance != 0 {
         let finder = Finder::new(mesh);
@@ -301,7 +291,7 @@ fn walk_to_gap(
 }
 
 fn ring_is_sound(slots: &[Option<Vertex>], v: Vertex) -> bool {
-    if slots.contains(&Some(v)) || has_twins(slots) {
+    if slots.contains(&Some(v)) || names_twice(slots) {
         return false;
     }
     if !slots.contains(&None) {
@@ -312,7 +302,7 @@ fn ring_is_sound(slots: &[Option<Vertex>], v: Vertex) -> bool {
 }
 
 /// Whether a vertex is there twice.
-fn has_twins(slots: &[Option<Vertex>]) -> bool {
+fn names_twice(slots: &[Option<Vertex>]) -> bool {
     // Most rings tell that they have none by the last bits of their vertices.
     let names = || slots.iter().copied().flatten();
     let bits = names().fold(0u64, |bits, x| bits | 1 << (x.index() % 64));
