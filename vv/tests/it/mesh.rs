@@ -204,6 +204,18 @@ fn faces_of_the_set_only() {
     assert_eq!(findings(&mesh), [1, 3, 5].map(|v| Finding::Outside { from: vertex(v), to: vertex(2) }));
 }
 
+/// The corners of a face are those of a walk, whichever of them is passed more than once.
+#[test]
+fn a_tree_has_one_face_that_goes_round_it() {
+    assert_eq!(face_list(&mesh("1: 2, 2: 1 3 4 5, 3: 2, 4: 2, 5: 2")), "1 2 5 2 4 2 3 2");
+    assert_eq!(face_list(&mesh("1: 2 3 4, 2: 1, 3: 1, 4: 1")), "1 2 1 4 1 3");
+    let n = 40;
+    let mut path = "1: 2".to_owned();
+    (2..n).for_each(|v| path += &format!(", {v}: {} {}", v - 1, v + 1));
+    let there = (1..=n).chain((2..n).rev()).map(|v| v.to_string()).collect::<Vec<_>>();
+    assert_eq!(face_list(&mesh(&format!("{path}, {n}: {}", n - 1))), there.join(" "));
+}
+
 #[test]
 fn a_fan_of_a_hundred_thousand_triangles_takes_linear_time() {
     let n = 100_000;
