@@ -29,7 +29,7 @@ use crate::ir::{FunctionId, Program};
 use crate::mesh::Mesh;
 use context::{Layout, Memo};
 use effects::{Facts, OldReads};
-use run::{End, Executable, Fixed, Symbol};
+use run::{End, Executable, Fixed, Owned, Symbol};
 use translate::{Site, Translator, Unit};
 
 pub(crate) use translate::Refused;
@@ -102,7 +102,8 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
     if cfg!(target_endian = "big") || size_of::<usize>() != 8 {
         return Err(refused("machines of this kind are not supported"));
     }
-    let mut module = new_module()?;
+    let mut owned = Owned::new(new_module()?);
+    let module = owned.module();
     let mut unit = Unit {
         program,
         facts: Facts::of(program),
@@ -140,8 +141,8 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
         compiler.func.name = UserFuncName::user(0, declared.as_u32());
         let name = program.function(*id).map_or("", |f| &f.name);
         let b = FunctionBuilder::new(&mut compiler.func, &mut builder);
-        Translator::new(b, &mut module, &mut unit, name).function(*id)?;
-        define(&mut module, *declared, &mut compiler)?;
+        Translator::new(b, module, &mut unit, name).function(*id)?;
+        define(module, *declared, &mut compiler)?;
     }
     let mut signature = module.make_signature();
     signature.params.extend([AbiParam::new(types::I64), AbiParam::new(types::I32)]);
@@ -150,13 +151,13 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
     compiler.func.signature = signature;
     compiler.func.name = UserFuncName::user(0, globals.as_u32());
     let b = FunctionBuilder::new(&mut compiler.func, &mut builder);
-    Translator::new(b, &mut module, &mut unit, "globals").globals()?;
-    define(&mut module, globals, &mut compiler)?;
-    module.finalize_definitions().map_err(refused)?;
+    Translator::new(b, module, &mut unit, "globals").globals()?;
+    define(module, globals, &mut compiler)?;
+    module.finalize_definitions().map_err(|_| refused("the system lets no memory be executable that was written"))?;
     let entries = roots.iter().filter_map(|id| Some((*id, *unit.functions.get(id)?))).collect::<Vec<_>>();
     let Unit { facts, layout, sites, texts, memos, .. } = unit;
     Ok(Native {
-        code: Executable::new(module, globals, &entries),
+        code: Executable::new(owned, globals, &entries),
         layout,
         creates: facts.creates(),
         old_reads: facts.old_reads,

@@ -26,7 +26,10 @@ mod print;
 mod rings;
 mod sets;
 mod symbols;
+#[cfg(all(test, target_os = "linux"))]
+mod tests;
 
+use std::mem::ManuallyDrop;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 
@@ -62,35 +65,46 @@ pub(super) enum End {
 /// What compiled code is called as: a rule with the index of its set, the globals with anything.
 type Entry = extern "C" fn(*mut Context, u32) -> u32;
 
-/// Machine code, as long as it is in use.
+/// A module that gives its memory back.
+pub(super) struct Owned(ManuallyDrop<JITModule>);
+
+impl Owned {
+    pub(super) fn new(module: JITModule) -> Self {
+        Self(ManuallyDrop::new(module))
+    }
+
+    pub(super) fn module(&mut self) -> &mut JITModule {
+        &mut self.0
+    }
+}
+
+impl Drop for Owned {
+    fn drop(&mut self) {
+        // SAFETY: it is taken once, here. Nothing runs in it, for running borrows the `Executable` that holds it, and
+        // pointers into it are kept nowhere else.
+        unsafe { ManuallyDrop::take(&mut self.0).free_memory() };
+    }
+}
+
+/// Machine code that can be run.
 pub(super) struct Executable {
-    /// Taken when it is dropped.
-    module: Mutex<Option<JITModule>>,
+    /// Holds the code; the mutex makes it shareable between threads, and is never locked.
+    _module: Mutex<Owned>,
     globals: Entry,
     rules: Vec<(FunctionId, Entry)>,
 }
 
 impl Executable {
     /// Of a module whose definitions are final, the function that computes the globals, and those of rules.
-    pub(super) fn new(module: JITModule, globals: FuncId, rules: &[(FunctionId, FuncId)]) -> Self {
+    pub(super) fn new(module: Owned, globals: FuncId, rules: &[(FunctionId, FuncId)]) -> Self {
         let entry = |id| {
             // SAFETY: these functions were compiled with the signature of `Entry`: the checker lets only functions of
             // one mesh be rules. Their code stays until `self` is dropped, and calls go through `run`, which borrows it.
-            unsafe { std::mem::transmute::<*const u8, Entry>(module.get_finalized_function(id)) }
+            unsafe { std::mem::transmute::<*const u8, Entry>(module.0.get_finalized_function(id)) }
         };
         let globals = entry(globals);
         let rules = rules.iter().map(|&(function, id)| (function, entry(id))).collect();
-        Self { module: Mutex::new(Some(module)), globals, rules }
-    }
-}
-
-impl Drop for Executable {
-    fn drop(&mut self) {
-        let module = self.module.get_mut().map_or_else(|e| e.into_inner().take(), Option::take);
-        if let Some(module) = module {
-            // SAFETY: nothing runs in it, for running borrows `self`, and no pointer into it is kept elsewhere.
-            unsafe { module.free_memory() };
-        }
+        Self { _module: Mutex::new(module), globals, rules }
     }
 }
 
