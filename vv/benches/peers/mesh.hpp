@@ -67,19 +67,23 @@ inline Lists read_off(const std::string& path) {
   return lists;
 }
 
-// 17 digits tell a double exactly.
+// Each number with as many digits as tell the double exactly, at most 17.
 inline void write_off(const Lists& lists, const std::string& path) {
-  FILE* out = std::fopen(path.c_str(), "w");
-  if (!out) fail("cannot write " + path);
-  std::fprintf(out, "OFF\n%zu %zu 0\n", lists.points.size(), lists.valences.size());
-  for (const Point& p : lists.points) std::fprintf(out, "%.17g %.17g %.17g\n", p[0], p[1], p[2]);
+  std::string text = "OFF\n" + std::to_string(lists.points.size()) + " " + std::to_string(lists.valences.size()) + " 0\n";
+  auto number = [&](auto x, char after) {
+    char digits[40];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, x).ptr - digits);
+    text += after;
+  };
+  for (const Point& p : lists.points) number(p[0], ' '), number(p[1], ' '), number(p[2], '\n');
   size_t at = 0;
   for (int valence : lists.valences) {
-    std::fprintf(out, "%d", valence);
-    for (int i = 0; i < valence; ++i) std::fprintf(out, " %d", lists.corners[at++]);
-    std::fprintf(out, "\n");
+    number(valence, ' ');
+    for (int i = 0; i < valence; ++i) number(lists.corners[at++], i + 1 < valence ? ' ' : '\n');
   }
-  if (std::fclose(out) != 0) fail("cannot write " + path);
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  if (!out.flush()) fail("cannot write " + path);
 }
 
 // Counts and two numbers that hardly two different surfaces share: the enclosed volume and the sum of the squares of all

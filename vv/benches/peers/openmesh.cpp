@@ -10,6 +10,7 @@
 
 struct Traits : OpenMesh::DefaultTraits {
   using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;  // Loop's scheme computes positions in this type
 };
 using Triangles = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 using Polygons = OpenMesh::PolyMesh_ArrayKernelT<Traits>;

@@ -11,6 +11,7 @@ mod engines;
 mod files;
 mod manual;
 mod mesh;
+mod oracles;
 mod rings;
 mod run;
 mod schemes;
