@@ -176,14 +176,12 @@ impl Command {
         let (label, tooltip, shortcuts): (_, _, &'static [KeyboardShortcut]) = match self {
             Self::NewProgram => ("New program", "begin an empty program", const { &[ctrl(Key::N)] }),
             Self::Choose(Purpose::OpenProgram) => ("Open program…", "open a .vv file", const { &[ctrl(Key::O)] }),
-            Self::Choose(Purpose::OpenMesh) => {
-                ("Open mesh…", "open an .obj or .off file", const { &[ctrl_shift(Key::O)] })
-            }
+            Self::Choose(Purpose::OpenMesh) => ("Open mesh…", "open a mesh file", const { &[ctrl_shift(Key::O)] }),
             Self::Choose(Purpose::SaveProgram) => {
                 ("Save program as…", "save the program under another name", const { &[ctrl_shift(Key::S)] })
             }
             Self::Choose(Purpose::ExportMesh) => {
-                ("Save mesh as…", "write the mesh shown as .obj or .off", const { &[ctrl(Key::E)] })
+                ("Save mesh as…", "write the mesh shown into a file; its extension says how", const { &[ctrl(Key::E)] })
             }
             Self::Save => ("Save program", "save the program to its file", const { &[ctrl(Key::S)] }),
             Self::Quit => ("Quit", "close the window", const { &[ctrl(Key::Q)] }),

@@ -46,7 +46,7 @@ Examples:
 
 /// Writes mesh algorithms as they are drawn on paper and watches them happen: a modeler for the vertex–vertex language.
 ///
-/// Without a sub-command vv opens its window. A mesh (.obj, .off) and a program (.vv) may be given in either order.
+/// Without a sub-command vv opens its window. A mesh (.obj, .off, .ply, .stl, .glb, .gltf) and a program (.vv) may be given in either order.
 #[derive(Debug, Parser)]
 #[command(name = "vv", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
 #[command(override_usage = "vv [MESH] [PROGRAM]\n       vv <COMMAND>")]
@@ -54,7 +54,7 @@ Examples:
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// A mesh (.obj, .off) and a program (.vv) to open, in either order.
+    /// A mesh (.obj, .off, .ply, .stl, .glb, .gltf) and a program (.vv) to open, in either order.
     #[arg(value_name = "MESH|PROGRAM")]
     files: Vec<PathBuf>,
 }

@@ -8,7 +8,7 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use vv::diagnostic::{Diagnostic, Severity};
-use vv::io::{Format, ReadError, ReadOptions};
+use vv::io::{Format, Place, ReadError, ReadOptions};
 use vv::mesh::Mesh;
 use vv::stop::Stop;
 use vv::{Compilation, Included};
@@ -33,8 +33,8 @@ const CLOSED_PIPE: &str = "nobody reads the output any more";
 pub struct FileError {
     /// Which file.
     pub path: PathBuf,
-    /// Line in it, from 1, where there is one.
-    pub line: Option<u32>,
+    /// Where in it, where that is known.
+    pub place: Option<Place>,
     /// What is wrong, as a diagnostic without span.
     pub diagnostic: Box<Diagnostic>,
 }
@@ -42,7 +42,7 @@ pub struct FileError {
 impl FileError {
     fn new(path: &Path, message: impl Into<String>) -> Self {
         let diagnostic = Box::new(Diagnostic::new(Severity::Error, None, message));
-        Self { path: path.to_owned(), line: None, diagnostic }
+        Self { path: path.to_owned(), place: None, diagnostic }
     }
 
     /// Whether it was a pipe that nobody reads any more: a reader who has enough, no fault.
@@ -56,18 +56,22 @@ impl FileError {
         self
     }
 
-    /// The diagnostic with file and line in front of its message.
+    /// The diagnostic with file and place in front of its message.
     #[must_use]
     pub fn located(&self) -> Diagnostic {
-        located(&self.path, self.line, Diagnostic::clone(&self.diagnostic))
+        located(&self.path, self.place, Diagnostic::clone(&self.diagnostic))
     }
 }
 
-/// A diagnostic about a file that is no program: file and line stand in front of its message.
+/// A diagnostic about a file that is no program: file and place stand in front of its message.
 #[must_use]
-pub fn located(path: &Path, line: Option<u32>, mut diagnostic: Diagnostic) -> Diagnostic {
-    let line = line.map_or_else(String::new, |line| format!(":{line}"));
-    diagnostic.message = format!("{}{line}: {}", shown(path), diagnostic.message);
+pub fn located(path: &Path, place: Option<Place>, mut diagnostic: Diagnostic) -> Diagnostic {
+    let place = match place {
+        None => String::new(),
+        Some(place @ Place::Text { .. }) => format!(":{place}"),
+        Some(place @ Place::Byte(_)) => format!(": at {place}"),
+    };
+    diagnostic.message = format!("{}{place}: {}", shown(path), diagnostic.message);
     diagnostic
 }
 
@@ -96,7 +100,7 @@ pub fn is_standard_stream(path: &Path) -> bool {
 /// # Errors
 /// What the file system says, that the text is not UTF-8, or that it is longer than [`MAX_PROGRAM_BYTES`].
 pub fn read_program(path: &Path) -> Result<String, FileError> {
-    let mut bytes = read(path, MAX_PROGRAM_BYTES, &Stop::new())?;
+    let mut bytes = read(path, MAX_PROGRAM_BYTES, |_| true, &Stop::new())?;
     if bytes.starts_with(b"\xEF\xBB\xBF") {
         bytes.drain(..3);
     }
@@ -106,7 +110,7 @@ pub fn read_program(path: &Path) -> Result<String, FileError> {
         let byte = error.as_bytes().get(before.len()).copied().unwrap_or_default();
         let mut error = FileError::new(path, "the text is not in UTF-8").hint("save the program as UTF-8");
         error.diagnostic.evidence.push(format!("the byte 0x{byte:02X} begins no character"));
-        error.line = Some(line);
+        error.place = Some(Place::Text { line, column: None });
         error
     })
 }
@@ -167,23 +171,24 @@ impl Includes {
     }
 }
 
-/// Reads a mesh, its format by extension. Standard input (`-`) and files without extension are OFF if they say so in
-/// their first word, else OBJ.
+/// Reads a mesh, its format by extension. Standard input (`-`) and files without extension are in the format that they
+/// begin as, else OBJ.
 ///
 /// # Errors
 /// What the file system or the reader says, or that the mesh is empty. When `options.stop` was set the error says that.
 pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), FileError> {
     let named = path.extension().map(|_| mesh_format(path)).transpose()?;
-    let bytes = read(path, MAX_MESH_BYTES, &options.stop)?;
+    let format_of = |bytes: &[u8]| named.or_else(|| Format::of_bytes(bytes)).unwrap_or(Format::Obj);
+    let bytes = read(path, MAX_MESH_BYTES, |bytes| format_of(bytes).is_text(), &options.stop)?;
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(FileError::new(path, "is empty").hint("a mesh file lists vertices and faces"));
     }
-    let format = named.unwrap_or_else(|| sniff(&bytes));
+    let format = format_of(&bytes);
     let (mesh, warnings) = vv::io::read(&bytes, format, options).map_err(|error| match error {
-        ReadError::Invalid { line, diagnostic } => {
-            let error = FileError { path: path.to_owned(), line, diagnostic };
+        ReadError::Invalid { place, diagnostic } => {
+            let error = FileError { path: path.to_owned(), place, diagnostic };
             match misnamed(&bytes, format) {
-                Some(other) => error.hint(format!("it looks like {other}, which its name should end in")),
+                Some(other) => error.hint(format!("it looks like `.{other}`, which its name should end in")),
                 None => error,
             }
         }
@@ -201,31 +206,28 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagno
 fn mesh_format(path: &Path) -> Result<Format, FileError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     Format::from_extension(&extension).ok_or_else(|| {
-        let known: Vec<_> = Format::ALL.iter().map(|f| format!("`.{}`", f.extension())).collect();
         FileError::new(path, format!("`.{extension}` is no mesh format that vv reads"))
-            .hint(format!("it reads {}", known.join(" and ")))
+            .hint(format!("it reads {}", mesh_extensions("and")))
     })
 }
 
-/// The extension that a mesh text should have if it is of another format than its name says.
+/// The extensions of mesh files, for a sentence: `.obj`, `.off` and `.ply`.
+#[must_use]
+pub fn mesh_extensions(and: &str) -> String {
+    let mut known: Vec<_> = Format::EXTENSIONS.iter().map(|extension| format!("`.{extension}`")).collect();
+    let last = known.pop().unwrap_or_default();
+    format!("{} {and} {last}", known.join(", "))
+}
+
+/// The extension that a mesh file should have if it is of another format than its name says.
 fn misnamed(bytes: &[u8], format: Format) -> Option<&'static str> {
-    let is_off = sniff(bytes) == Format::Off;
     let has_vertex = || bytes.split(|&b| b == b'\n').any(|line| line.starts_with(b"v "));
-    match format {
-        Format::Obj => is_off.then_some("`.off`"),
-        Format::Off => (!is_off && has_vertex()).then_some("`.obj`"),
-    }
+    let found = Format::of_bytes(bytes).or_else(|| has_vertex().then_some(Format::Obj))?;
+    Some(found.extension()).filter(|&extension| extension != format.extension())
 }
 
-/// The format that a mesh text says it is in: OFF texts begin with a word that ends in `OFF`.
-fn sniff(bytes: &[u8]) -> Format {
-    let line = bytes.split(|&b| b == b'\n').map(<[u8]>::trim_ascii).find(|l| !l.is_empty() && !l.starts_with(b"#"));
-    let word = line.and_then(|l| l.split(u8::is_ascii_whitespace).next()).unwrap_or_default();
-    if word.to_ascii_uppercase().ends_with(b"OFF") { Format::Off } else { Format::Obj }
-}
-
-/// The bytes of a file or of standard input.
-fn read(path: &Path, limit: u64, stop: &Stop) -> Result<Vec<u8>, FileError> {
+/// The bytes of a file or of standard input; `is_text` says of its beginning whether it should be text.
+fn read(path: &Path, limit: u64, is_text: impl Fn(&[u8]) -> bool, stop: &Stop) -> Result<Vec<u8>, FileError> {
     const CHUNK: u64 = 1 << 20;
     let fail = |error: io::Error| FileError::new(path, sentence(&error));
     let mut source: Box<dyn Read> =
@@ -237,7 +239,7 @@ fn read(path: &Path, limit: u64, stop: &Stop) -> Result<Vec<u8>, FileError> {
             return Ok(bytes);
         }
         if bytes.len() == count
-            && let Some(error) = no_text(path, &bytes)
+            && let Some(error) = no_text(path, &bytes, is_text(&bytes))
         {
             return Err(error);
         }
@@ -248,9 +250,9 @@ fn read(path: &Path, limit: u64, stop: &Stop) -> Result<Vec<u8>, FileError> {
     }
 }
 
-/// What a file is that begins with these bytes, if it is no text. Texts hold no NUL; what does is binary or a device
-/// without end.
-fn no_text(path: &Path, bytes: &[u8]) -> Option<FileError> {
+/// What a file is that begins with these bytes, if it is packed, or no text and should be. Texts hold no NUL; what does
+/// is binary or a device without end.
+fn no_text(path: &Path, bytes: &[u8], should_be: bool) -> Option<FileError> {
     let is = |message: &str| Some(FileError::new(path, format!("is no text: {message}")));
     if bytes.starts_with(b"\x1F\x8B") {
         return is("it is compressed by gzip").map(|error| error.hint("unpack it first, with `gunzip`"));
@@ -258,7 +260,7 @@ fn no_text(path: &Path, bytes: &[u8]) -> Option<FileError> {
     if bytes.starts_with(b"PK\x03\x04") {
         return is("it is a zip archive").map(|error| error.hint("unpack it first, with `unzip`"));
     }
-    if !bytes.contains(&0) {
+    if !should_be || !bytes.contains(&0) {
         return None;
     }
     if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
@@ -267,7 +269,11 @@ fn no_text(path: &Path, bytes: &[u8]) -> Option<FileError> {
     if bytes.starts_with(b"OFF BINARY") {
         return is("it is binary OFF").map(|error| error.hint("vv reads OFF that is text"));
     }
-    is("it holds NUL bytes")
+    let error = is("it holds NUL bytes");
+    match Format::of_bytes(bytes).filter(|format| !format.is_text()) {
+        Some(format) => error.map(|e| e.hint(format!("it looks like `.{}`", format.extension()))),
+        None => error,
+    }
 }
 
 fn open(path: &Path) -> Result<File, FileError> {
@@ -306,7 +312,8 @@ mod tests {
     #[track_caller]
     fn fails(result: Result<impl std::fmt::Debug, FileError>, line: Option<u32>, message: &str) {
         let error = result.unwrap_err();
-        assert_eq!((error.line, error.diagnostic.message.as_str()), (line, message));
+        let place = line.map(|line| Place::Text { line, column: None });
+        assert_eq!((error.place, error.diagnostic.message.as_str()), (place, message));
     }
 
     #[test]
@@ -349,6 +356,7 @@ mod tests {
                 "it looks like `.off`, which its name should end in",
             ),
             ("m.off", "# by hand\nv 0 0 0\nv 1 0 0\n", "it looks like `.obj`, which its name should end in"),
+            ("m.stl", "ply\nformat ascii 1.0\n", "it looks like `.ply`, which its name should end in"),
         ] {
             fs::write(folder.path().join(name), text).unwrap();
             let error = read_mesh(&folder.path().join(name), &ReadOptions::default()).unwrap_err();
@@ -372,15 +380,16 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_without_name_is_known_by_its_first_word() {
-        for (text, format) in [
-            ("OFF\n3 1 0", Format::Off),
-            ("# made by hand\n\n  COFF # colours\n", Format::Off),
-            ("off 3 1 0", Format::Off),
-            ("# OFF\nv 0 0 0", Format::Obj),
-            ("", Format::Obj),
-        ] {
-            assert_eq!(sniff(text.as_bytes()), format, "{text:?}");
+    fn a_mesh_without_name_is_known_by_how_it_begins() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mesh");
+        let (mesh, _) =
+            vv::io::read(b"OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2", Format::Off, &ReadOptions::default()).unwrap();
+        let faces = vv::mesh::faces::faces(&mesh, &Stop::new()).unwrap();
+        for format in Format::ALL {
+            fs::write(&path, vv::io::write(&mesh, &faces, format).unwrap()).unwrap();
+            let (again, _) = read_mesh(&path, &ReadOptions::default()).unwrap();
+            assert_eq!(again.positions(), mesh.positions(), "{format:?}");
         }
     }
 

@@ -217,8 +217,9 @@ impl Mesh {
         &self.rings.properties
     }
 
-    /// Declares a vertex property and returns its index. One of the same name and type keeps its values and takes the
-    /// new default for vertices to come; one of another type is replaced.
+    /// Declares a vertex property and returns its index. One of the same name, as of an earlier step or a file, keeps its
+    /// values and takes the new default for vertices to come; one of another type is converted
+    /// ([`Values::converted`]) or else replaced.
     pub fn declare_vertex_property(&mut self, name: &str, default: Value) -> usize {
         let n = self.vertex_count();
         property::declare(&mut self.vertex_properties, name, default, n)
@@ -230,12 +231,14 @@ impl Mesh {
         property::declare(&mut self.rings.properties, name, default, n)
     }
 
-    /// Declares a property of the mesh as a whole (of the set `S`) and returns its index; one of the same name and
-    /// type keeps its value.
+    /// Declares a property of the mesh as a whole (of the set `S`) and returns its index; one of the same name keeps its
+    /// value, converted as in [`Mesh::declare_vertex_property`].
     pub fn declare_mesh_property(&mut self, name: &str, default: Value) -> usize {
         if let Some(i) = self.mesh_properties.iter().position(|(n, _)| n == name) {
-            if self.mesh_properties[i].1.ty() != default.ty() {
-                self.mesh_properties[i].1 = default;
+            let value = &mut self.mesh_properties[i].1;
+            if value.ty() != default.ty() {
+                let converted = Values::filled(*value, 1).converted(default.ty());
+                *value = converted.and_then(|values| values.get(0)).unwrap_or(default);
             }
             return i;
         }
@@ -278,6 +281,15 @@ impl Mesh {
     #[must_use]
     pub fn edge_value(&self, property: usize, p: Vertex, q: Vertex) -> Option<Value> {
         self.rings.edge_value(property, p, q)
+    }
+
+    /// The neighbours of `v` from the start of its ring with the values of edge property `property` that stand at `v`:
+    /// those of the edge where `v` is the older end. Nothing for a property that is not declared. O(valence) for all.
+    pub fn edge_values(&self, property: usize, v: Vertex) -> impl Iterator<Item = (Vertex, Value)> + '_ {
+        let values = self.rings.properties.get(property).map(|property| &property.values);
+        let offset = self.heads().get(v.index()).map_or(0, |head| head.offset as usize);
+        let slots = self.ring(v).slots().iter().zip(offset..);
+        slots.filter_map(move |(&x, slot)| Some((x?, values?.get(slot)?)))
     }
 
     /// Sets edge property `property` at both ends; whether there was an end to set it at.

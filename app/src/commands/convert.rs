@@ -14,7 +14,7 @@ use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, output};
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Arguments {
-    /// The mesh; `-` is stdin, in either format.
+    /// The mesh; `-` is stdin, in any format.
     mesh: PathBuf,
     #[command(flatten)]
     output: OutputArguments,

@@ -16,7 +16,7 @@ use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, warnings
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct Arguments {
-    /// The mesh; `-` is stdin, in either format.
+    /// The mesh; `-` is stdin, in any format.
     mesh: PathBuf,
     /// Write one JSON object.
     #[arg(long)]

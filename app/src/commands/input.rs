@@ -7,7 +7,7 @@ use std::sync::Arc;
 use app::evaluation::within;
 use app::files::{self, FileError};
 use vv::diagnostic::{Diagnostic, Severity};
-use vv::io::{Format, ReadOptions};
+use vv::io::{Format, Place, ReadOptions};
 use vv::ir::Program;
 use vv::mesh::Mesh;
 use vv::source::{Sources, Span};
@@ -83,7 +83,8 @@ pub fn file_failed(error: &FileError, reporter: &Reporter) -> Exit {
 
 /// The diagnostic at its line of the file; `None` without line, or if the file cannot be read again.
 fn quoted(error: &FileError) -> Option<(Diagnostic, Sources)> {
-    let line = error.line?.checked_sub(1)? as usize;
+    let Place::Text { line, column } = error.place? else { return None };
+    let line = line.checked_sub(1)? as usize;
     // Only a file gives the same again; a pipe would keep us waiting.
     fs::metadata(&error.path).ok().filter(|m| m.is_file() && m.len() <= MOST_QUOTED)?;
     let bytes = fs::read(&error.path).ok()?;
@@ -91,6 +92,12 @@ fn quoted(error: &FileError) -> Option<(Diagnostic, Sources)> {
     let quote = text.split_inclusive('\n').nth(line)?;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
     let end = start + quote.trim_end().len();
+    // From the column on the word that stands there.
+    let word = column.and_then(|column| quote.char_indices().nth(column as usize - 1)).map(|(before, _)| {
+        let len = quote[before..].find(char::is_whitespace).unwrap_or(quote.len() - before);
+        (start + before, start + before + len)
+    });
+    let (start, end) = word.unwrap_or((start, end));
     let mut sources = Sources::default();
     let file = sources.add(files::shown(&error.path), text);
     let mut diagnostic = Diagnostic::clone(&error.diagnostic);

@@ -45,7 +45,7 @@ fn explained(cause: &str, display: &str) -> Diagnostic {
 }
 
 /// What works without graphics.
-pub const WITHOUT_GPU: &str = "meshes (.obj, .off) and `--summary json` need no graphics driver";
+pub const WITHOUT_GPU: &str = "meshes and `--summary json` need no graphics driver";
 const WITHOUT_WINDOW: &str = "`vv run PROGRAM -i MESH -o out.obj` works without window";
 const PACKAGES: &str = "on Debian and Ubuntu a window needs the packages libxkbcommon-x11-0, libxcursor1, libxi6, \
                         libx11-xcb1, libvulkan1 and a driver such as mesa-vulkan-drivers";
@@ -79,7 +79,7 @@ fn sort(paths: &[PathBuf]) -> Result<Opened, Box<Diagnostic>> {
 
 fn unknown(path: &Path) -> Diagnostic {
     let shown = path.display().to_string();
-    let diagnostic = error(format!("`{shown}` is neither a program (.vv) nor a mesh (.obj, .off) nor a command"));
+    let diagnostic = error(format!("`{shown}` is neither a program (.vv) nor a mesh nor a command"));
     match closest(&shown, ["run", "check", "fmt", "mesh", "help"]) {
         Some(command) => diagnostic.hint(format!("did you mean `vv {command}`?")),
         None => diagnostic.hint("the commands are `run`, `check`, `fmt` and `mesh`; `vv --help` explains them"),
@@ -162,7 +162,7 @@ mod tests {
         sorted(&["a.OFF", "b.vv"], Ok((Some("a.OFF"), Some("b.vv"))));
         sorted(&["b.vv", "a.off"], Ok((Some("a.off"), Some("b.vv"))));
         sorted(&["a.vv", "b.vv"], Err("a.vv and b.vv are both a program: vv opens one"));
-        sorted(&["a.stl"], Err("`a.stl` is neither a program (.vv) nor a mesh (.obj, .off) nor a command"));
+        sorted(&["a.stp"], Err("`a.stp` is neither a program (.vv) nor a mesh nor a command"));
     }
 
     #[cfg(target_os = "linux")]

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use app::files::{self, Prepared};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use image::RgbaImage;
 use vv::diagnostic::Diagnostic;
 use vv::io::Format;
@@ -17,25 +18,27 @@ use super::{Exit, error, fail, input, picture};
 /// What to write.
 #[derive(Debug, Args)]
 pub struct OutputArguments {
-    /// Write the mesh (.obj, .off) or a picture of it (.png); `-` is stdout. May be repeated.
+    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf) or a picture of it (.png); `-` is stdout. May be repeated.
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
-    /// What `-o -` writes, and files whose extension does not say.
-    #[arg(long, value_enum)]
+    /// What `-o -` writes, and files whose extension does not say or of which there are several kinds.
+    #[arg(long, value_parser = output_format())]
     format: Option<OutputFormat>,
     /// Size of pictures in pixels. Default: that of the reference picture, else 1280x960.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum OutputFormat {
-    /// Wavefront OBJ
-    Obj,
-    /// Object File Format
-    Off,
-    /// A picture
-    Png,
+/// A mesh format; `None` is a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct OutputFormat(Option<Format>);
+
+/// The extension and name of pictures.
+const PICTURE: &str = "png";
+
+fn output_format() -> impl TypedValueParser<Value = OutputFormat> {
+    let names = Format::ALL.map(Format::name).into_iter().chain([PICTURE]);
+    PossibleValuesParser::new(names).map(|name| OutputFormat(Format::from_name(&name)))
 }
 
 /// Width and height in pixels.
@@ -106,21 +109,20 @@ impl OutputArguments {
 
     fn format_of(&self, path: &Path) -> Result<Option<Format>, Box<Diagnostic>> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let asked = self.format.and_then(|OutputFormat(format)| format);
         if let Some(format) = Format::from_extension(&extension) {
-            return Ok(Some(format));
+            return Ok(Some(asked.filter(|asked| asked.extension() == format.extension()).unwrap_or(format)));
         }
-        if extension.eq_ignore_ascii_case("png") {
+        if extension.eq_ignore_ascii_case(PICTURE) {
             return Ok(None);
         }
         match self.format {
-            Some(OutputFormat::Obj) => Ok(Some(Format::Obj)),
-            Some(OutputFormat::Off) => Ok(Some(Format::Off)),
-            Some(OutputFormat::Png) => Ok(None),
+            Some(OutputFormat(format)) => Ok(format),
             None if files::is_standard_stream(path) => {
-                Err(error("`-o -` does not say what to write").hint("add `--format obj`, `off` or `png`").into())
+                Err(error("`-o -` does not say what to write").hint("add `--format obj`, `ply`, `png`, …").into())
             }
             None => Err(error(format!("`-o {}` has no extension that vv writes", path.display()))
-                .hint("write `.obj`, `.off` or `.png`, or say `--format`")
+                .hint(format!("write {} or a picture, `.png`, or say `--format`", files::mesh_extensions("or")))
                 .into()),
         }
     }
@@ -149,7 +151,10 @@ pub fn prepare(
         reporter.progress(format!("writing {}", path.display()));
         let began = Instant::now();
         let bytes = match (format, &outputs.picture) {
-            (Some(format), _) => vv::io::write(mesh, faces, *format),
+            (Some(format), _) => match vv::io::write(mesh, faces, *format) {
+                Ok(bytes) => bytes,
+                Err(problem) => return fail(reporter, Exit::File, error(problem.to_string())),
+            },
             (None, Some(picture)) => picture::png(picture, reporter)?,
             (None, None) => Vec::new(),
         };

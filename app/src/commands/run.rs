@@ -46,7 +46,7 @@ pub struct Arguments {
     /// What is no option and no program: the mesh, where `-i` was forgotten.
     #[arg(hide = true)]
     others: Vec<PathBuf>,
-    /// The mesh to begin with (.obj, .off); `-` is stdin, in either format. A program with `start` needs none.
+    /// The mesh to begin with (.obj, .off, .ply, .stl, .glb, .gltf); `-` is stdin, in any of these formats. A program with `start` needs none.
     #[arg(short, long, value_name = "MESH")]
     input: Option<PathBuf>,
     /// How often to apply the rule. Default: 1, or 0 if the program has only `start`.
@@ -223,7 +223,7 @@ fn plan(arguments: &Arguments, program: &Program) -> Result<(Option<FunctionId>,
     }
     if program.start.is_none() && arguments.input.is_none() {
         let diagnostic = error(format!("{name} has no `start` that would make a mesh, so it needs one"))
-            .hint("add `-i MESH`, an .obj or .off file");
+            .hint("add `-i MESH`, an .obj, .off, .ply, .stl, .glb or .gltf file");
         return Err((Exit::Usage, diagnostic.into()));
     }
     Ok((rule, steps))

@@ -16,7 +16,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.add(egui::Label::new(session.document.mesh.name()).truncate());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let response = ui.button("Open…").on_hover_text("open an .obj or .off file");
+                let response = ui.button("Open…").on_hover_text("open a mesh file");
                 if response.clicked() {
                     commands.push(Command::Choose(Purpose::OpenMesh));
                 }

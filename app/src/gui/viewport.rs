@@ -246,7 +246,7 @@ fn empty(ui: &Ui, rect: Rect, session: &Session) {
         Some(Stale::Failed(message)) => message.clone(),
         _ if session.is_busy() => return,
         Some(Stale::Stopped) => "stopped".to_owned(),
-        None => "drop an .obj or .off file here, choose one of the Meshes, or open one of the Examples".to_owned(),
+        None => "drop a mesh file here, choose one of the Meshes, or open one of the Examples".to_owned(),
     };
     centered(ui, rect, &["nothing to show yet", &why]);
 }

@@ -6,6 +6,7 @@ use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 use vv::diagnostic::Severity;
+use vv::io::Format;
 
 use super::{Dialog, Purpose, Session};
 use crate::command::{Answer, Command};
@@ -134,13 +135,14 @@ impl Session {
 
     pub(super) fn export_to(&mut self, path: PathBuf) {
         let Some(frame) = self.frame.clone() else { return };
-        let format = path.extension().and_then(|e| vv::io::Format::from_extension(&e.to_string_lossy()));
+        let format = path.extension().and_then(|e| Format::from_extension(&e.to_string_lossy()));
         let Some(format) = format else {
-            self.say(Severity::Error, "the name of a mesh ends in .obj or .off");
+            let extensions = files::mesh_extensions("or");
+            self.say(Severity::Error, format!("the name of a mesh ends in {extensions}"));
             return;
         };
         self.in_background(move || {
-            let bytes = vv::io::write(&frame.mesh, &frame.faces, format);
+            let bytes = vv::io::write(&frame.mesh, &frame.faces, format).map_err(|problem| problem.to_string())?;
             match files::write(&path, &bytes) {
                 Ok(()) => Ok(format!("saved {}", path.display())),
                 Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
@@ -212,7 +214,7 @@ impl Session {
         }
         dialog = match purpose {
             Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
-            Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &["obj", "off"]),
+            Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &Format::EXTENSIONS),
         };
         dialog = match purpose {
             Purpose::SaveProgram => dialog.set_file_name(&program.name),

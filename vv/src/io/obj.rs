@@ -4,21 +4,26 @@
 //! of its own at each group, takes polylines for faces, fails at continued lines, at comments behind numbers and at
 //! colours of some vertices, accepts NaN, and does not name lines. So it is handed a text of vertices and faces alone,
 //! one statement to a line, that begins with a face of all vertices, which keeps them all and their order. The line it
-//! read last is where a statement is wrong.
+//! read last is where a statement is wrong. Colours and tags are read on the way.
+
+mod tags;
 
 use std::borrow::Cow;
 use std::io::{self, BufRead, Read, Write};
 
 use glam::DVec3;
 
-use super::lines::{Lines, number, show, words};
-use super::{ReadError, invalid, numbering, push_number};
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::mesh::Full;
-use crate::mesh::Mesh;
+use super::color::{self, Colors};
+use super::lines::{COMMENT, Lines, column, number, show, words};
+use super::{Place, ReadError, invalid, note, numbering, polygons, push_number, warning};
+use crate::diagnostic::Diagnostic;
 use crate::mesh::build::Polygons;
 use crate::mesh::faces::Faces;
+use crate::mesh::{Full, Mesh};
 use crate::stop::Stop;
+use tags::Tags;
+
+pub use tags::SHARPNESS;
 
 /// Statements that say how things look or what they are called.
 const ATTRIBUTES: [&[u8]; 19] = [
@@ -50,16 +55,19 @@ const FREE_FORM: [&[u8]; 16] = [
 ];
 
 pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic>), ReadError> {
-    let vertex_count = Statements::new(text).filter(|(_, s)| keyword(s) == b"v").count();
+    let vertex_count = Statements::new(text).filter(|s| s.keyword() == b"v").count();
     let mut feed = Feed::new(text, vertex_count, stop);
     // A closure that is never called: no `mtllib` gets through.
     let loaded = tobj::load_obj_buf(&mut feed, &tobj::LoadOptions::default(), |_| Err(tobj::LoadError::GenericFailure));
     stop.check()?;
+    if let Some(error) = feed.wrong {
+        return Err(error);
+    }
     let models = match loaded {
         Ok((models, _)) => models,
         Err(error) => return Err(explain(text, feed.line, error)),
     };
-    let Feed { lines, mut ignored, .. } = feed;
+    let Feed { lines, mut ignored, colors, greatest, tags, .. } = feed;
     if vertex_count == 0 && lines.is_empty() && ignored.unknown.0 > 0 {
         return Err(invalid(None, "this is no OBJ file: no line begins with `v` or `f`"));
     }
@@ -70,9 +78,9 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     if let Some(index) = positions.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(text, index));
     }
-    if let Some((line, statement)) = cut_off(text) {
-        let message = format!("the file ends within a face, after {}; it was probably cut off", show(&statement));
-        return Err(invalid(Some(line), message));
+    if let Some(statement) = cut_off(text) {
+        let message = format!("the file ends within a face, after {}; it was probably cut off", show(&statement.text));
+        return Err(invalid(Place::line(statement.line), message));
     }
     let mut polygons = Polygons::new(positions);
     let mut corners = &mesh.indices[vertex_count.min(mesh.indices.len())..];
@@ -83,50 +91,72 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
             if mesh.face_arities.is_empty() { 3 } else { mesh.face_arities.get(i + 1).map_or(0, |&n| n as usize) };
         let (face, rest) = corners.split_at(len.min(corners.len()));
         corners = rest;
-        polygons.push(face.iter().copied(), Some(line)).map_err(|_| invalid(Some(line), Full.to_string()))?;
+        polygons.push(face.iter().copied(), Some(line)).map_err(|_| invalid(Place::line(line), Full.to_string()))?;
     }
+    polygons.values.vertices.extend(colors.property(greatest));
+    tags.give(&mut polygons.values, vertex_count);
     Ok((polygons, ignored.diagnostics()))
 }
 
-/// The statements of a text with the line at which each begins; a backslash at the end of a line continues it.
+/// A statement and the line at which it begins.
+struct Statement<'a> {
+    line: u32,
+    text: Cow<'a, [u8]>,
+}
+
+impl Statement<'_> {
+    fn keyword(&self) -> &[u8] {
+        words(&self.text).next().unwrap_or(&[])
+    }
+
+    /// What follows the key word.
+    fn arguments(&self) -> impl Iterator<Item = &[u8]> + Clone {
+        words(&self.text).skip(1)
+    }
+
+    /// Where one of its words stands; a statement that was continued is no line any more.
+    fn place(&self, word: &[u8]) -> Place {
+        let column = if let Cow::Borrowed(text) = self.text { column(text, word) } else { None };
+        Place::Text { line: self.line, column }
+    }
+}
+
+/// The statements of a text; a backslash at the end of a line continues it.
 #[derive(Clone)]
 struct Statements<'a>(Lines<'a>);
 
 impl<'a> Statements<'a> {
     fn new(text: &'a [u8]) -> Self {
-        Self(Lines::new(text))
+        Self(Lines::new(text, COMMENT))
     }
 }
 
 impl<'a> Iterator for Statements<'a> {
-    type Item = (u32, Cow<'a, [u8]>);
+    type Item = Statement<'a>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let (number, line) = self.0.next()?;
-        let mut statement = Cow::Borrowed(line);
-        while let Some(head) = statement.trim_ascii_end().strip_suffix(b"\\") {
+        let (line, text) = self.0.next()?;
+        let mut text = Cow::Borrowed(text);
+        while let Some(head) = text.trim_ascii_end().strip_suffix(b"\\") {
             let mut joined = head.to_vec();
             joined.push(b' ');
-            match self.0.next() {
-                Some((_, line)) => joined.extend_from_slice(line),
-                None => return Some((number, Cow::Owned(joined))),
+            let more = self.0.next();
+            joined.extend_from_slice(more.map_or(&[], |(_, line)| line));
+            text = Cow::Owned(joined);
+            if more.is_none() {
+                break;
             }
-            statement = Cow::Owned(joined);
         }
-        Some((number, statement))
+        Some(Statement { line, text })
     }
 }
 
 /// The last statement, if it is a face of fewer than three corners without an end of the line.
-fn cut_off(text: &[u8]) -> Option<(u32, Cow<'_, [u8]>)> {
+fn cut_off(text: &[u8]) -> Option<Statement<'_>> {
     if text.ends_with(b"\n") || text.ends_with(b"\r") {
         return None;
     }
-    Statements::new(text).last().filter(|(_, s)| keyword(s) == b"f" && words(s).count() < 4)
-}
-
-fn keyword(statement: &[u8]) -> &[u8] {
-    words(statement).next().unwrap_or(&[])
+    Statements::new(text).last().filter(|s| s.keyword() == b"f" && s.arguments().count() < 3)
 }
 
 /// What tobj reads.
@@ -141,6 +171,12 @@ struct Feed<'a> {
     /// The lines of faces.
     lines: Vec<u32>,
     ignored: Ignored,
+    colors: Colors,
+    /// The greatest opacity of colours.
+    greatest: f64,
+    tags: Tags,
+    /// What is wrong with a colour or tag; nothing is read after it.
+    wrong: Option<ReadError>,
 }
 
 impl<'a> Feed<'a> {
@@ -151,7 +187,19 @@ impl<'a> Feed<'a> {
         }
         buffer.push(b'\n');
         let statements = Statements::new(text);
-        Self { statements, stop, buffer, read: 0, line: 0, lines: Vec::new(), ignored: Ignored::default() }
+        Self {
+            statements,
+            stop,
+            buffer,
+            read: 0,
+            line: 0,
+            lines: Vec::new(),
+            ignored: Ignored::default(),
+            colors: Colors::default(),
+            greatest: 0.0,
+            tags: Tags::new(vertex_count),
+            wrong: None,
+        }
     }
 
     /// Puts the next vertex or face into the buffer.
@@ -160,32 +208,58 @@ impl<'a> Feed<'a> {
         self.read = 0;
         while self.buffer.is_empty() {
             self.stop.check().map_err(io::Error::other)?;
-            let Some((line, statement)) = self.statements.next() else { return Ok(()) };
-            let keyword = keyword(&statement);
+            let Some(statement) = self.statements.next().filter(|_| self.wrong.is_none()) else {
+                return Ok(());
+            };
+            let keyword = statement.keyword();
             match keyword {
                 b"" => continue,
                 b"v" => {
-                    let numbers = words(&statement).skip(1).count();
-                    self.ignored.colors |= numbers > 5;
+                    let numbers = statement.arguments().count();
+                    self.add_color(&statement);
                     let kept = if numbers > 5 { 4 } else { numbers + 1 };
-                    for word in words(&statement).take(kept) {
+                    for word in words(&statement.text).take(kept) {
                         self.buffer.extend_from_slice(word);
                         self.buffer.push(b' ');
                     }
                 }
                 b"f" => {
-                    self.lines.push(line);
-                    self.buffer.extend_from_slice(&statement);
+                    self.lines.push(statement.line);
+                    self.buffer.extend_from_slice(&statement.text);
+                }
+                b"t" => {
+                    match self.tags.add(statement.arguments(), |word| statement.place(word)) {
+                        Ok(known) => self.ignored.attributes |= !known,
+                        Err(error) => self.wrong = Some(error),
+                    }
+                    continue;
                 }
                 _ => {
-                    self.ignored.note(line, keyword);
+                    self.ignored.note(statement.line, keyword);
                     continue;
                 }
             }
             self.buffer.push(b'\n');
-            self.line = line;
+            self.line = statement.line;
         }
         Ok(())
+    }
+
+    /// The colour behind the coordinates, if there is one, with opacity or without.
+    fn add_color(&mut self, statement: &Statement<'_>) {
+        if statement.arguments().count() < 6 {
+            return self.colors.push(None); // at most a weight
+        }
+        let mut channels = [0.0; 4];
+        for (channel, word) in channels.iter_mut().zip(statement.arguments().skip(3)) {
+            match number(word) {
+                Ok(x) => *channel = x,
+                Err(why) => self.wrong = Some(invalid(statement.place(word), why)),
+            }
+        }
+        let [r, g, b, opacity] = channels;
+        self.greatest = self.greatest.max(opacity);
+        self.colors.push(Some(DVec3::new(r, g, b)));
     }
 }
 
@@ -213,7 +287,6 @@ impl BufRead for Feed<'_> {
 /// What was passed over: how often, and the line where it first stood.
 #[derive(Default)]
 struct Ignored {
-    colors: bool,
     attributes: bool,
     lines: (usize, u32),
     points: (usize, u32),
@@ -257,12 +330,13 @@ impl Ignored {
             if n > 0 {
                 let more = if n > 1 { format!(" and {} more like it", n - 1) } else { String::new() };
                 let message = format!("{what} on line {line}{more} ignored: {why}");
-                diagnostics.push(Diagnostic::new(Severity::Warning, None, message));
+                diagnostics.push(warning(message));
             }
         }
-        if self.colors || self.attributes {
-            let message = "colours, normals, texture coordinates, groups and materials are not read";
-            diagnostics.push(Diagnostic::new(Severity::Note, None, message));
+        if self.attributes {
+            diagnostics.push(note(
+                "normals, texture coordinates, groups, materials and tags but creases and corners are not read",
+            ));
         }
         diagnostics
     }
@@ -276,11 +350,17 @@ fn explain(text: &[u8], line: u32, error: tobj::LoadError) -> ReadError {
     {
         return error;
     }
-    let statement = Statements::new(text).find(|&(number, _)| number == line).map(|(_, s)| s).unwrap_or_default();
-    let arguments = words(&statement).skip(1);
-    let message = match keyword(&statement) {
-        b"v" => match arguments.clone().find_map(|word| number(word).err()) {
-            Some(why) => why,
+    let Some(statement) = Statements::new(text).find(|s| s.line == line) else {
+        return invalid(None, format!("the file cannot be read as OBJ: {error}"));
+    };
+    let arguments = statement.arguments();
+    let mut about = Place::line(line);
+    let message = match statement.keyword() {
+        b"v" => match arguments.clone().find_map(|word| Some((word, number(word).err()?))) {
+            Some((word, why)) => {
+                about = statement.place(word);
+                why
+            }
             None => match arguments.count() {
                 0 => "the vertex has no coordinates".to_owned(),
                 1 => "the vertex has one coordinate, not three".to_owned(),
@@ -290,12 +370,15 @@ fn explain(text: &[u8], line: u32, error: tobj::LoadError) -> ReadError {
             },
         },
         b"f" => match arguments.clone().find(|word| !is_corner(word)) {
-            Some(word) => format!("{} is no corner of a face, as `7`, `-1` or `7/1/3` would be", show(word)),
+            Some(word) => {
+                about = statement.place(word);
+                format!("{} is no corner of a face, as `7`, `-1` or `7/1/3` would be", show(word))
+            }
             None => format!("the face cannot be read: {error}"),
         },
         _ => format!("the file cannot be read as OBJ: {error}"),
     };
-    invalid(Some(line).filter(|&line| line > 0), message)
+    invalid(Some(about).filter(|_| line > 0), message)
 }
 
 /// Up to three integers between slashes, where all but the first may be missing.
@@ -307,13 +390,13 @@ fn is_corner(word: &[u8]) -> bool {
 
 /// The first corner whose vertex is not there.
 fn bad_corner(text: &[u8]) -> Option<ReadError> {
-    let total = Statements::new(text).filter(|(_, s)| keyword(s) == b"v").count() as i64;
+    let total = Statements::new(text).filter(|s| s.keyword() == b"v").count() as i64;
     let mut before = 0;
-    for (line, statement) in Statements::new(text) {
-        match keyword(&statement) {
+    for statement in Statements::new(text) {
+        match statement.keyword() {
             b"v" => before += 1,
             b"f" => {
-                for word in words(&statement).skip(1) {
+                for word in statement.arguments() {
                     let index = word.split(|&b| b == b'/').next().and_then(|part| std::str::from_utf8(part).ok());
                     let index = index.and_then(|part| part.parse::<i64>().ok());
                     let why = match index {
@@ -327,7 +410,7 @@ fn bad_corner(text: &[u8]) -> Option<ReadError> {
                         Some(_) => continue,
                     };
                     let message = format!("the face has a corner at vertex {}, but {why}", show(word));
-                    return Some(invalid(Some(line), message));
+                    return Some(invalid(statement.place(word), message));
                 }
             }
             _ => {}
@@ -338,32 +421,37 @@ fn bad_corner(text: &[u8]) -> Option<ReadError> {
 
 /// The line of the vertex at `index`, which tobj read as infinite or NaN.
 fn not_finite(text: &[u8], index: usize) -> ReadError {
-    let statement = Statements::new(text).filter(|(_, s)| keyword(s) == b"v").nth(index);
-    let Some((line, statement)) = statement else { return invalid(None, "a coordinate is not finite") };
-    let why = words(&statement).skip(1).find_map(|word| number(word).err());
-    invalid(Some(line), why.unwrap_or_else(|| "the coordinates divided by the weight are too large".to_owned()))
+    let statement = Statements::new(text).filter(|s| s.keyword() == b"v").nth(index);
+    let Some(statement) = statement else { return invalid(None, "a coordinate is not finite") };
+    match statement.arguments().find_map(|word| Some((word, number(word).err()?))) {
+        Some((word, why)) => invalid(statement.place(word), why),
+        None => invalid(Place::line(statement.line), "the coordinates divided by the weight are too large"),
+    }
 }
 
+/// As text, with colours and sharpness if there are any.
 pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
     let (numbers, members) = numbering(mesh);
-    let polygons = || faces.iter().filter(|face| face.len() > 2);
+    let colors = color::column(mesh);
     let mut text = Vec::new();
     // Writing to a vector does not fail.
-    let _ = writeln!(text, "# {} vertices, {} faces", members.len(), polygons().count());
-    for v in members {
+    let _ = writeln!(text, "# {} vertices, {} faces", members.len(), polygons(faces).count());
+    for &v in &members {
         text.push(b'v');
-        for x in mesh.position(v).to_array() {
+        let color = colors.map(|column| color::of(mesh, column, v).to_array());
+        for x in mesh.position(v).to_array().into_iter().chain(color.into_iter().flatten()) {
             text.push(b' ');
             push_number(&mut text, x);
         }
         text.push(b'\n');
     }
-    for face in polygons() {
+    for face in polygons(faces) {
         text.push(b'f');
         for corner in face {
             let _ = write!(text, " {}", numbers[corner.index()] + 1);
         }
         text.push(b'\n');
     }
+    tags::write(mesh, &members, &numbers, &mut text);
     text
 }

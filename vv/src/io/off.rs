@@ -4,31 +4,61 @@ use std::io::Write;
 
 use glam::DVec3;
 
-use super::lines::{Lines, number, show, words};
-use super::{ReadError, invalid, numbering, push_number};
-use crate::diagnostic::{Diagnostic, Severity};
+use super::color::{self, Colors};
+use super::lines::{COMMENT, Words, integer, number, show};
+use super::{Place, ReadError, invalid, note, numbering, polygons, push_number, warning};
+use crate::diagnostic::Diagnostic;
 use crate::mesh::Mesh;
 use crate::mesh::build::Polygons;
 use crate::mesh::faces::Faces;
 use crate::stop::Stop;
 
-/// Reads the header (`OFF`, also with the prefixes `ST`, `C`, `N` for what is not read; it may be missing), the counts,
-/// the vertices and the faces. Comments and blank lines may stand anywhere.
+/// What follows the coordinates of a vertex, in this order.
+#[derive(Clone, Copy, Default)]
+struct Extras {
+    normal: bool,
+    color: bool,
+    texture: bool,
+}
+
+impl Extras {
+    /// How many numbers that are; colours may lack their opacity.
+    fn len(self) -> usize {
+        3 * usize::from(self.normal) + 4 * usize::from(self.color) + 2 * usize::from(self.texture)
+    }
+
+    /// The colour among the words behind the coordinates, and its opacity.
+    fn color(self, words: &[&[u8]]) -> Option<(DVec3, f64)> {
+        let from = 3 * usize::from(self.normal);
+        let to = words.len().checked_sub(2 * usize::from(self.texture))?;
+        let numbers: Vec<f64> = words.get(from..to)?.iter().map_while(|word| number(word).ok()).collect();
+        match numbers[..] {
+            [r, g, b] if self.color => Some((DVec3::new(r, g, b), 0.0)),
+            [r, g, b, opacity] if self.color => Some((DVec3::new(r, g, b), opacity)),
+            _ => None,
+        }
+    }
+}
+
+/// Reads the header (`OFF`, also with the prefixes `C` for colours and `ST`, `N` for what is not read; it may be
+/// missing), the counts, the vertices and the faces. Comments and blank lines may stand anywhere.
 ///
-/// One vertex or face stands on a line, and what follows on it (normals, colours) is passed over; a file with too few
-/// lines for that is read as a stream of words.
+/// One vertex or face stands on a line, and what else follows on it is passed over; a file with too few lines for that
+/// is read as a stream of words.
 pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic>), ReadError> {
-    let mut words = Words::new(text);
+    let mut words = Words::new(text, COMMENT);
     let extras = header(&mut words)?;
     let vertex_count = count(&mut words, "vertices")?;
     let face_count = count(&mut words, "faces")?;
     if let Some(edges) = words.next_on_line() {
-        integer(edges, words.line, "the number of edges")?;
+        expect(&words, edges, "the number of edges")?;
     }
     let stream = words.lines_left() < vertex_count.saturating_add(u64::from(face_count > 0));
     let mut ignored = !stream && words.finish_line() > 0;
 
     let mut positions = Vec::new();
+    let (mut colors, mut greatest) = (Colors::default(), 0.0);
+    let mut rest = Vec::new();
     while (positions.len() as u64) < vertex_count {
         stop.check()?;
         let n = positions.len() as u64;
@@ -36,15 +66,18 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
         for (k, x) in p.iter_mut().enumerate() {
             let word = if stream || k == 0 { words.next() } else { words.next_on_line() };
             let Some(word) = word else { return Err(ends(&words, stream, k, n, vertex_count)) };
-            *x = number(word).map_err(|why| invalid(Some(words.line), format!("vertex {}: {why}", n + 1)))?;
+            *x = number(word).map_err(|why| invalid(words.place(), format!("vertex {}: {why}", n + 1)))?;
         }
+        rest.clear();
         if stream {
-            for _ in 0..extras {
-                words.next();
-            }
+            rest.extend((0..extras.len()).map_while(|_| words.next()));
         } else {
-            ignored |= words.finish_line() > 0;
+            rest.extend(std::iter::from_fn(|| words.next_on_line()));
         }
+        let color = extras.color(&rest);
+        ignored |= rest.len() > if color.is_some() { 4 } else { 0 };
+        colors.push(color.map(|(color, _)| color));
+        greatest = color.map_or(0.0, |(_, opacity)| opacity).max(greatest);
         positions.push(DVec3::from_array(p));
     }
 
@@ -55,27 +88,25 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
         let n = polygons.len() as u64 + 1;
         let Some(word) = words.next() else {
             let message = format!("the file ends after {} of {face_count} faces", n - 1);
-            return Err(invalid(Some(words.line), message));
+            return Err(invalid(words.line(), message));
         };
         let line = words.line;
-        let len = integer(word, line, "the number of corners of a face")?;
+        let len = expect(&words, word, "the number of corners of a face")?;
         corners.clear();
         while (corners.len() as u64) < len {
             let word = if stream { words.next() } else { words.next_on_line() };
             let Some(word) = word else {
                 let message = format!("face {n} announces {len} corners, but there are {}", corners.len());
-                return Err(invalid(Some(line), message));
+                return Err(invalid(Place::line(line), message));
             };
-            let corner = integer(word, words.line, "a vertex of the face, numbered from 0")?;
+            let corner = expect(&words, word, "a vertex of the face, numbered from 0")?;
             match u32::try_from(corner) {
                 Ok(corner) if u64::from(corner) < vertex_count => corners.push(corner),
                 _ => {
                     let last = vertex_count.checked_sub(1);
                     let range = last.map_or("there is none".to_owned(), |last| format!("they go from 0 to {last}"));
-                    return Err(invalid(
-                        Some(words.line),
-                        format!("face {n} has a corner at vertex {corner}, but {range}"),
-                    ));
+                    let message = format!("face {n} has a corner at vertex {corner}, but {range}");
+                    return Err(invalid(words.place(), message));
                 }
             }
             if corners.len().is_multiple_of(4096) {
@@ -84,70 +115,70 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
         }
         polygons
             .push(corners.iter().copied(), Some(line))
-            .map_err(|_| invalid(Some(line), crate::mesh::Full.to_string()))?;
+            .map_err(|_| invalid(Place::line(line), crate::mesh::Full.to_string()))?;
         if !stream {
             ignored |= words.finish_line() > 0;
         }
     }
 
+    polygons.values.vertices.extend(colors.property(greatest));
+
     let mut diagnostics = Vec::new();
-    if ignored || extras > 0 {
-        let message = "colours, normals and texture coordinates are not read";
-        diagnostics.push(Diagnostic::new(Severity::Note, None, message));
+    if ignored {
+        diagnostics.push(note("normals, texture coordinates and colours of faces are not read"));
     }
     if words.next().is_some() {
         let message = format!("line {} and what follows is ignored: all announced faces were read", words.line);
-        diagnostics.push(Diagnostic::new(Severity::Warning, None, message));
+        diagnostics.push(warning(message));
     }
     Ok((polygons, diagnostics))
 }
 
-/// Reads the key word and returns how many numbers follow the coordinates of a vertex.
-fn header(words: &mut Words<'_>) -> Result<usize, ReadError> {
+/// Reads the key word.
+fn header(words: &mut Words<'_>) -> Result<Extras, ReadError> {
     let mut peek = words.clone();
     let Some(word) = peek.next() else { return Err(invalid(None, "the file holds nothing but comments")) };
     if word.first().is_some_and(u8::is_ascii_digit) && !word.ends_with(b"OFF") {
-        return Ok(0);
+        return Ok(Extras::default());
     }
     let not_off = || {
         let message = format!("this is no OFF file: it begins with {}, not with OFF", show(word));
-        invalid(Some(peek.line), message)
+        invalid(peek.line(), message)
     };
     let Some(mut prefix) = word.strip_suffix(b"OFF") else { return Err(not_off()) };
-    let mut extras = 0;
-    for (name, numbers) in [(&b"ST"[..], 2), (b"C", 4), (b"N", 3)] {
-        if let Some(rest) = prefix.strip_prefix(name) {
-            prefix = rest;
-            extras += numbers;
-        }
-    }
+    let mut has = |name: &[u8]| {
+        let rest = prefix.strip_prefix(name);
+        prefix = rest.unwrap_or(prefix);
+        rest.is_some()
+    };
+    let (texture, color, normal) = (has(b"ST"), has(b"C"), has(b"N"));
     match prefix {
         b"" => {}
         b"4" | b"n" | b"4n" => {
             let message =
                 format!("{} has coordinates of other dimension than three; only plain OFF is read", show(word));
-            return Err(invalid(Some(peek.line), message));
+            return Err(invalid(peek.line(), message));
         }
         _ => return Err(not_off()),
     }
     *words = peek;
     let mut peek = words.clone();
     if peek.next_on_line().is_some_and(|word| word.eq_ignore_ascii_case(b"BINARY")) {
-        return Err(invalid(Some(peek.line), "binary OFF is not read; save the file as text"));
+        return Err(invalid(peek.line(), "binary OFF is not read; save the file as text"));
     }
-    Ok(extras)
+    Ok(Extras { normal, color, texture })
 }
 
 fn count(words: &mut Words<'_>, what: &str) -> Result<u64, ReadError> {
     let Some(word) = words.next() else {
-        return Err(invalid(Some(words.line), format!("the file ends before the number of {what}")));
+        return Err(invalid(words.line(), format!("the file ends before the number of {what}")));
     };
-    integer(word, words.line, &format!("the number of {what}"))
+    expect(words, word, &format!("the number of {what}"))
 }
 
 /// The file or a line ends within vertex `n`, of which `k` coordinates were read.
 fn ends(words: &Words<'_>, stream: bool, k: usize, n: u64, vertex_count: u64) -> ReadError {
-    let line = Some(words.line);
+    let line = words.line();
     match k {
         _ if stream || k == 0 => invalid(line, format!("the file ends after {n} of {vertex_count} vertices")),
         2 => {
@@ -157,60 +188,19 @@ fn ends(words: &Words<'_>, stream: bool, k: usize, n: u64, vertex_count: u64) ->
     }
 }
 
-fn integer(word: &[u8], line: u32, expected: &str) -> Result<u64, ReadError> {
-    let integer = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
-    integer.ok_or_else(|| invalid(Some(line), format!("expected {expected}, found {}", show(word))))
+/// The word, which was read last, as a number.
+fn expect(words: &Words<'_>, word: &[u8], expected: &str) -> Result<u64, ReadError> {
+    integer(word).ok_or_else(|| invalid(words.place(), format!("expected {expected}, found {}", show(word))))
 }
 
-/// The words of a text, and the line of the last.
-#[derive(Clone)]
-struct Words<'a> {
-    lines: Lines<'a>,
-    rest: &'a [u8],
-    line: u32,
-}
-
-impl<'a> Words<'a> {
-    fn new(text: &'a [u8]) -> Self {
-        Self { lines: Lines::new(text), rest: &[], line: 1 }
-    }
-
-    /// The next word on this line.
-    fn next_on_line(&mut self) -> Option<&'a [u8]> {
-        let rest: &'a [u8] = self.rest;
-        let word = words(rest).next()?;
-        let end = word.as_ptr() as usize - rest.as_ptr() as usize + word.len();
-        self.rest = &rest[end..];
-        Some(word)
-    }
-
-    /// The next word, on this line or a later one.
-    fn next(&mut self) -> Option<&'a [u8]> {
-        loop {
-            if let Some(word) = self.next_on_line() {
-                return Some(word);
-            }
-            (self.line, self.rest) = self.lines.next()?;
-        }
-    }
-
-    /// Passes over the rest of the line: how many words that was.
-    fn finish_line(&mut self) -> usize {
-        words(std::mem::take(&mut self.rest)).count()
-    }
-
-    /// How many lines with words follow this one.
-    fn lines_left(&self) -> u64 {
-        self.lines.clone().filter(|(_, line)| words(line).next().is_some()).count() as u64
-    }
-}
-
+/// As text, with the colours of vertices in bytes if there are any.
 pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
     let (numbers, members) = numbering(mesh);
-    let polygons = || faces.iter().filter(|face| face.len() > 2);
+    let colors = color::column(mesh);
     let mut text = Vec::new();
     // Writing to a vector does not fail.
-    let _ = writeln!(text, "OFF\n{} {} 0", members.len(), polygons().count());
+    let header = if colors.is_some() { "COFF" } else { "OFF" };
+    let _ = writeln!(text, "{header}\n{} {} 0", members.len(), polygons(faces).count());
     for v in members {
         for (k, x) in mesh.position(v).to_array().into_iter().enumerate() {
             if k > 0 {
@@ -218,9 +208,13 @@ pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
             }
             push_number(&mut text, x);
         }
+        if let Some(column) = colors {
+            let [r, g, b] = color::bytes(mesh, column, v);
+            let _ = write!(text, " {r} {g} {b} 255");
+        }
         text.push(b'\n');
     }
-    for face in polygons() {
+    for face in polygons(faces) {
         let _ = write!(text, "{}", face.len());
         for corner in face {
             let _ = write!(text, " {}", numbers[corner.index()]);

@@ -15,10 +15,11 @@
 mod clean;
 mod edges;
 mod fans;
+mod values;
 
 use glam::DVec3;
 
-use super::{Full, Mesh, Vertex};
+use super::{Full, Mesh, Property, Value, Values, Vertex};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::stop::{Stop, Stopped};
 use edges::Edges;
@@ -42,6 +43,32 @@ pub struct Polygons {
     ends: Vec<u32>,
     /// For each face its number in the file, from 1, and its line, 0 if unknown.
     names: Vec<(u32, u32)>,
+    /// What else is said of vertices, edges and the whole.
+    pub values: NamedValues,
+    /// Once cleaned: for each vertex its number in the file.
+    origins: Vec<u32>,
+}
+
+/// Values that come with polygons by name: they become properties of the mesh.
+#[derive(Debug, Clone, Default)]
+pub struct NamedValues {
+    /// One value for each vertex.
+    pub vertices: Vec<Property>,
+    /// Values of some edges.
+    pub edges: Vec<EdgeValues>,
+    /// Values of the whole.
+    pub mesh: Vec<(String, Value)>,
+}
+
+/// Values of some edges; an edge that is not named has the value zero ([`Value::zero`]).
+#[derive(Debug, Clone)]
+pub struct EdgeValues {
+    /// What stands after `$`.
+    pub name: String,
+    /// The ends of each edge by their numbers, from 0, in any order; of an edge that is named twice the last counts.
+    pub ends: Vec<[u32; 2]>,
+    /// The value of each.
+    pub values: Values,
 }
 
 impl Polygons {
@@ -171,6 +198,7 @@ struct Report {
 ///
 /// Faces at an edge with more than two are paired where they run in opposite directions, those that are connected
 /// elsewhere first. With `strict`, what would have to be changed is refused; what is kept still comes with a warning.
+/// Named values go with their vertices and edges to duplicates too; values of an edge that is none are dropped.
 /// Cost: linear but for sorting the edges of each vertex.
 ///
 /// # Errors
@@ -180,7 +208,10 @@ pub fn build(polygons: Polygons, strict: bool, stop: &Stop) -> Result<(Mesh, Vec
     let mut polygons = clean::clean(polygons, &mut report, stop)?;
     let mut edges = Edges::new(&polygons, stop)?;
     edges.orient(&mut polygons, &mut report, stop)?;
-    let mesh = fans::mesh(&polygons, &edges, &mut report, stop)?;
+    let (mut mesh, duplicated) = fans::mesh(&polygons, &edges, &mut report, stop)?;
+    let mut origins = std::mem::take(&mut polygons.origins);
+    origins.extend(duplicated.iter().map(|&v| origins[v as usize]).collect::<Vec<_>>());
+    values::give(&mut mesh, std::mem::take(&mut polygons.values), &origins, &mut report, stop)?;
     let Report { repairs, remarks } = report;
     if strict && !repairs.is_empty() {
         return Err(refuse(repairs));

@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use super::{Column, Vertex};
 
+/// Doubles below this that are whole are ints.
+const WHOLE: f64 = (1i64 << 62) as f64;
+
 /// The types of the values a program computes with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -173,6 +176,33 @@ impl Values {
         }
     }
 
+    /// The values at these indices, `fill` for those past the end; it is of the same type.
+    pub(super) fn gather(&self, indices: &[u32], fill: Value) -> Self {
+        let mut gathered = Self::filled(fill, 0);
+        for &i in indices {
+            gathered.push(self.get(i as usize).unwrap_or(fill));
+        }
+        gathered
+    }
+
+    /// The same numbers in another type, if it can hold every one of them: an int as a double, whole doubles as ints,
+    /// zeros and ones as bools. Other types are not converted.
+    #[must_use]
+    pub fn converted(&self, to: Type) -> Option<Self> {
+        fn each<T, U>(column: &Column<T>, convert: impl Fn(&T) -> Option<U>) -> Option<Column<U>> {
+            column.iter().map(convert).collect::<Option<Vec<_>>>().map(Column::from)
+        }
+        let whole = |x: &f64| (*x == x.trunc() && x.abs() < WHOLE).then_some(*x as i64);
+        let flag = |x: i64| (x == 0 || x == 1).then_some(x == 1);
+        Some(match (self, to) {
+            (Self::Int(c), Type::Double) => Self::Double(each(c, |&x| Some(x as f64))?),
+            (Self::Double(c), Type::Int) => Self::Int(each(c, whole)?),
+            (Self::Int(c), Type::Bool) => Self::Bool(each(c, |&x| flag(x))?),
+            (Self::Double(c), Type::Bool) => Self::Bool(each(c, |x| whole(x).and_then(flag))?),
+            _ => return None,
+        })
+    }
+
     /// The values whose flag is set.
     pub(super) fn keep(&self, flags: &[bool]) -> Self {
         fn kept<T: Clone>(c: &Column<T>, flags: &[bool]) -> Column<T> {
@@ -223,8 +253,9 @@ pub(super) fn declare(properties: &mut Vec<Property>, name: &str, default: Value
     if let Some(i) = properties.iter().position(|p| p.name == name) {
         let property = &mut properties[i];
         property.default = default;
-        if property.values.ty() != default.ty() {
-            property.values = Values::filled(default, n);
+        let ty = default.ty();
+        if property.values.ty() != ty {
+            property.values = property.values.converted(ty).unwrap_or_else(|| Values::filled(default, n));
         }
         return i;
     }

@@ -1,11 +1,20 @@
 //! Mesh files: text in, faces and warnings out; round trips; what is refused and where.
 
-use vv::io::{Format, ReadError, ReadOptions, read, write};
+use vv::io::{Format, Place, ReadError, ReadOptions, read, write};
 use vv::mesh::Mesh;
 use vv::mesh::faces::faces;
 use vv::stop::{Stop, Stopped};
 
 use crate::mesh::{face_list, ring_list};
+
+mod binary;
+mod gltf;
+mod ply;
+mod robust;
+mod stl;
+mod values;
+
+use values::check_values;
 
 /// Reads and shows the faces, then the messages.
 fn outcome(bytes: &[u8], format: Format, strict: bool) -> String {
@@ -18,9 +27,13 @@ fn outcome(bytes: &[u8], format: Format, strict: bool) -> String {
             }
             text
         }
-        Err(ReadError::Invalid { line, diagnostic }) => {
-            let line = line.map_or(String::new(), |line| format!(" line {line}"));
-            let mut text = format!("error{line}: {}", diagnostic.message);
+        Err(ReadError::Invalid { place, diagnostic }) => {
+            let place = match place {
+                None => String::new(),
+                Some(Place::Text { line, .. }) => format!(" line {line}"),
+                Some(Place::Byte(offset)) => format!(" at byte {offset}"),
+            };
+            let mut text = format!("error{place}: {}", diagnostic.message);
             diagnostic.evidence.iter().for_each(|fact| text += &format!("\n  {fact}"));
             text
         }
@@ -278,14 +291,18 @@ fn obj_groups_do_not_part_a_mesh() {
     check_obj(
         "mtllib a b.mtl\no a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\ng x\nusemtl m\nf 1 2 3\no b\nv 0 0 1\nusemtl k\ns off\n\
          f 1 3 4\n",
-        "1 2 3 / 1 3 4\nNote: colours, normals, texture coordinates, groups and materials are not read",
+        "1 2 3 / 1 3 4\n\
+         Note: normals, texture coordinates, groups, materials and tags but creases and corners are not read",
     );
 }
 
 #[test]
 fn obj_colours_and_weights() {
-    let note = "1 2 3\nNote: colours, normals, texture coordinates, groups and materials are not read";
-    check_obj("v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0.5 0.5 0.5 1\nf 1 2 3\n", note);
+    let colors = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0.5 0.5 0.25 1\nf 1 2 3\n";
+    check_values(colors.as_bytes(), Format::Obj, "color: (1 0 0) (1 1 1) (0.5 0.5 0.25)");
+    let bytes = "v 0 0 0 255 0 0\nv 1 0 0\nv 0 1 0 51 102 0\nf 1 2 3\n";
+    check_values(bytes.as_bytes(), Format::Obj, "color: (1 0 0) (1 1 1) (0.2 0.4 0)");
+    check_obj("v 0 0 0 1 0 x\n", "error line 1: `x` is not a number");
     let (mesh, _) = read(b"v 2 4 6 2\nv 1 0 0\nv 0 1 0\nf 1 2 3", Format::Obj, &ReadOptions::default()).unwrap();
     assert_eq!(mesh.positions()[0].to_array(), [1.0, 2.0, 3.0]);
     check_obj("v 0 0 0 0\n", "error line 1: the weight of the vertex is 0");
@@ -367,14 +384,32 @@ fn off_headers_and_counts_have_many_forms() {
 }
 
 #[test]
-fn off_colours_normals_and_texture_coordinates_are_passed_over() {
-    let note = "1 2 3\nNote: colours, normals and texture coordinates are not read";
-    check_off(&triangle("COFF\n3 1 3", " 255 0 0 255", " 1 0 0\n"), note);
-    check_off(&triangle("COFF\n3 1 3", " 255 0 0", "\n"), note);
+fn off_normals_and_texture_coordinates_are_passed_over() {
+    let note = "1 2 3\nNote: normals, texture coordinates and colours of faces are not read";
     check_off(&triangle("NOFF\n3 1 3", " 0 0 1", "\n"), note);
     check_off(&triangle("STCNOFF\n3 1 3", " 0 0 1 1 1 1 1 0 0", "\n"), note);
     check_off(&triangle("OFF\n3 1 3", "", " 255 0 0\n"), note);
-    check_off("COFF 3 1 3 0 0 0 1 1 1 1 1 0 0 1 1 1 1 0 1 0 1 1 1 1 3 0 1 2", note);
+}
+
+#[test]
+fn off_colours_are_kept() {
+    let check = |text: String, expected: &str| {
+        check_off(&text, "1 2 3");
+        check_values(text.as_bytes(), Format::Off, expected);
+    };
+    let red = "color: (1 0 0) (1 0 0) (1 0 0)";
+    check(triangle("COFF\n3 1 3", " 255 0 0 255", "\n"), red);
+    check(triangle("COFF\n3 1 3", " 255 0 0", "\n"), red);
+    check(triangle("COFF\n3 1 3", " 1 0 0 1", "\n"), red);
+    check(triangle("COFF\n3 1 3", " 1 0 0", "\n"), red);
+    check(triangle("COFF\n3 1 3", " 0 0 0 255", "\n"), "color: (0 0 0) (0 0 0) (0 0 0)");
+    check(
+        "COFF 3 1 3 0 0 0 1 .5 0 1 1 0 0 1 .5 0 1 0 1 0 0 0 0 1 3 0 1 2".to_owned(),
+        "color: (1 0.5 0) (1 0.5 0) (0 0 0)",
+    );
+    let (text, note) = (triangle("STCNOFF\n3 1 3", " 0 0 1 255 51 0 0.5 0.5", "\n"), "1 2 3\nNote: normals, texture");
+    assert!(outcome(text.as_bytes(), Format::Off, false).starts_with(note));
+    check_values(text.as_bytes(), Format::Off, "color: (1 0.2 0) (1 0.2 0) (1 0.2 0)");
 }
 
 #[test]
@@ -474,7 +509,7 @@ fn bad_fixtures_are_what_they_are_there_for() {
 fn numbers_are_written_as_short_as_they_read_back() {
     let obj = "v 0.1 -0 1e300\nv 1e-7 123456789012 5e-324\nv 0.30000000000000004 -1.5 100\nf 1 2 3\n";
     let (mesh, _) = read(obj.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
-    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj);
+    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap();
     assert_eq!(String::from_utf8(written).unwrap(), format!("# 3 vertices, 1 faces\n{obj}"));
 }
 
@@ -487,7 +522,7 @@ fn edges_without_faces_are_not_written() {
     mesh.set = [p, q].into_iter().collect();
     let found = faces(&mesh, &Stop::new()).unwrap();
     assert_eq!(found.len(), 1);
-    assert_eq!(write(&mesh, &found, Format::Off), b"OFF\n2 0 0\n0 0 0\n0 0 0\n");
+    assert_eq!(write(&mesh, &found, Format::Off).unwrap(), b"OFF\n2 0 0\n0 0 0\n0 0 0\n");
 }
 
 #[test]
@@ -500,21 +535,43 @@ fn reading_stops() {
     }
 }
 
+/// The meshes under `assets/meshes`.
+fn assets() -> impl Iterator<Item = (String, Mesh)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/meshes");
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+    paths.map(|path| {
+        let format = Format::from_extension(path.extension().unwrap().to_str().unwrap()).unwrap();
+        let (mesh, diagnostics) = read(&std::fs::read(&path).unwrap(), format, &ReadOptions::default()).unwrap();
+        assert_eq!(diagnostics, [], "{}", path.display());
+        (path.display().to_string(), mesh)
+    })
+}
+
+fn written(mesh: &Mesh, format: Format) -> Vec<u8> {
+    write(mesh, &faces(mesh, &Stop::new()).unwrap(), format).unwrap()
+}
+
 #[test]
 fn what_was_written_reads_back_and_is_written_the_same() {
-    for name in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/meshes")).unwrap() {
-        let path = name.unwrap().path();
-        if !path.is_file() {
-            continue;
-        }
+    for (name, first) in assets() {
         for format in Format::ALL {
-            let bytes = std::fs::read(&path).unwrap();
-            let (first, _) = read(&bytes, Format::Obj, &ReadOptions::default()).unwrap();
-            let written = write(&first, &faces(&first, &Stop::new()).unwrap(), format);
-            let (second, diagnostics) = read(&written, format, &ReadOptions::default()).unwrap();
-            assert_eq!(diagnostics, []);
-            assert_eq!(ring_list(&first), ring_list(&second));
-            assert_eq!(written, write(&second, &faces(&second, &Stop::new()).unwrap(), format));
+            let bytes = written(&first, format);
+            let (second, diagnostics) =
+                read(&bytes, format, &ReadOptions { strict: true, ..Default::default() }).unwrap();
+            let triangles = faces(&first, &Stop::new()).unwrap().iter().all(|face| face.len() == 3);
+            let (keeps_order, keeps_faces) = match format {
+                Format::Stl | Format::StlText => (false, triangles),
+                Format::Glb | Format::Gltf => (triangles, triangles),
+                _ => (true, true),
+            };
+            if keeps_order {
+                assert_eq!(diagnostics, [], "{name} {format:?}");
+                assert_eq!(ring_list(&first), ring_list(&second), "{name} {format:?}");
+                assert_eq!(bytes, written(&second, format), "{name} {format:?}");
+            }
+            let count = |mesh: &Mesh| faces(mesh, &Stop::new()).unwrap().len();
+            assert_eq!(first.vertex_count(), second.vertex_count(), "{name} {format:?}");
+            assert!(!keeps_faces || count(&first) == count(&second), "{name} {format:?}");
         }
     }
 }

@@ -454,14 +454,14 @@ proptest! {
             return Ok(());
         }
         let faces = all_faces(&mesh);
-        for format in Format::ALL {
-            let written = write(&mesh, &faces, format);
+        for format in [Format::Obj, Format::Off, Format::Ply, Format::PlyText, Format::PlyBigEndian] {
+            let written = write(&mesh, &faces, format).unwrap();
             let (again, _) = read(&written, format, &ReadOptions { strict: true, ..ReadOptions::default() }).unwrap();
             for v in mesh.vertices() {
                 let ring = |mesh: &Mesh| cycle(mesh.ring(v).vertices().collect());
                 prop_assert_eq!(ring(&mesh), ring(&again));
             }
-            prop_assert_eq!(String::from_utf8(write(&again, &all_faces(&again), format)), String::from_utf8(written));
+            prop_assert_eq!(write(&again, &all_faces(&again), format).unwrap(), written);
         }
     }
 
@@ -503,10 +503,10 @@ proptest! {
         given.sort();
         prop_assert_eq!(kept, given);
         // What was mended once needs no mending again.
-        let written = write(&mesh, &all_faces(&mesh), Format::Off);
+        let written = write(&mesh, &all_faces(&mesh), Format::Off).unwrap();
         if mesh.vertices().all(|v| mesh.ring(v).gaps() < 3) && mesh.vertex_count() > 0 {
             let (again, _) = read(&written, Format::Off, &ReadOptions { strict: true, ..ReadOptions::default() }).unwrap();
-            prop_assert_eq!(String::from_utf8(write(&again, &all_faces(&again), Format::Off)), String::from_utf8(written));
+            prop_assert_eq!(write(&again, &all_faces(&again), Format::Off).unwrap(), written);
         }
         drop(warnings);
     }

@@ -9,7 +9,11 @@ fn a_file_that_cannot_be_read_is_named() {
     }
     check("run move.vv -i octahedron.obj --reference none.obj", 3, "none.obj: there is no such file");
     check("check .", 3, ".: is a directory, not a file");
-    check("mesh info move.vv", 3, "move.vv: `.vv` is no mesh format that vv reads\n`.obj` and `.off`");
+    check(
+        "mesh info move.vv",
+        3,
+        "move.vv: `.vv` is no mesh format that vv reads\n`.obj`, `.off`, `.ply`, `.stl`, `.glb` and `.gltf`",
+    );
 }
 
 #[test]
@@ -71,12 +75,12 @@ fn a_repaired_mesh_is_a_warning_and_an_error_when_strict() {
 #[test]
 fn an_error_in_a_mesh_quotes_its_line() {
     let folder = Folder::with(&[("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")]);
-    folder.check("mesh info m.off", 3, "m.off:6:1\n3 0 1 7");
-    folder.check("mesh info m.off --diagnostic-format short", 3, "m.off:6:1: error: ");
+    folder.check("mesh info m.off", 3, "m.off:6:7\n3 0 1 7");
+    folder.check("mesh info m.off --diagnostic-format short", 3, "m.off:6:7: error: ");
     let object = json(&folder.check("mesh info m.off --diagnostic-format json", 3, "m.off").stderr);
     assert_eq!((&object["file"], &object["line"]), (&"m.off".into(), &6.into()));
     let ended = folder.run_with_stdin("mesh info -", &folder.read("m.off"));
-    assert!(ended.code == Some(3) && ended.stderr.contains("<stdin>:6: "), "{}", ended.stderr);
+    assert!(ended.code == Some(3) && ended.stderr.contains("<stdin>:6:7: "), "{}", ended.stderr);
 }
 
 #[test]

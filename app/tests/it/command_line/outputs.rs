@@ -8,6 +8,51 @@ fn each_extension_gets_its_format() {
     folder.check("run move.vv -i octahedron.obj -o a.obj -o b.off", 0, "");
     assert_eq!(vertices(&folder.read("a.obj"))[..2], ["2 0 0", "0 0 0"]);
     assert!(folder.read("b.off").starts_with("OFF\n6 8 "));
+    folder.check("run move.vv -i octahedron.obj -o a.ply -o b.PLY -o c.stl --format ply-text", 0, "");
+    assert!(
+        folder.read("a.ply").starts_with("ply\nformat ascii 1.0\n") && folder.read("a.ply") == folder.read("b.PLY")
+    );
+    assert_eq!(fs::read(folder.path("c.stl")).unwrap().len(), 84 + 8 * 50);
+    folder.check(
+        "mesh convert c.stl -o d.glb -o e.gltf",
+        0,
+        "c.stl: 24 corners of triangles were welded to 6 vertices",
+    );
+    assert_eq!(&fs::read(folder.path("d.glb")).unwrap()[..4], b"glTF");
+    for (name, said) in [("a.ply", ""), ("c.stl", "welded"), ("d.glb", ""), ("e.gltf", "")] {
+        let info = json(&folder.check(&format!("mesh info {name} --json"), 0, said).stdout);
+        assert_eq!(
+            (&info["vertices"], &info["faces"], &info["closed"]),
+            (&6.into(), &8.into(), &true.into()),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn help_names_every_extension() {
+    for arguments in ["run --help", "mesh convert --help", "--help"] {
+        let text = check(arguments, 0, "").stdout;
+        for extension in vv::io::Format::EXTENSIONS {
+            assert!(text.contains(&format!(".{extension}")), "{arguments}: {extension}");
+        }
+    }
+}
+
+#[test]
+fn values_go_from_a_file_through_a_program_that_declares_them_to_a_file() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n\
+        property uchar age\nproperty uchar other\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+        0 0 0 1 7\n1 0 0 2 8\n0 1 0 3 9\n3 0 1 2\n";
+    let program = "vertex { double age; };\nvoid step(mesh& S) {\n  forall p in S {\n    p$age = p$age / 2;\n  }\n}\n";
+    let folder = Folder::with(&[("in.ply", ply), ("halve.vv", program)]);
+    folder.check("run halve.vv -i in.ply -n 1 -o out.ply --format ply-text", 0, "");
+    let expected = ply
+        .replace("uchar age", "double age")
+        .replace(" 1 7", " 0.5 7")
+        .replace(" 2 8", " 1 8")
+        .replace(" 3 9", " 1.5 9");
+    assert_eq!(folder.read("out.ply"), expected);
 }
 
 #[test]

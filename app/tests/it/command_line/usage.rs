@@ -27,7 +27,7 @@ fn a_command_line_that_cannot_be_meant_so_says_why() {
         ("run move.vv", "move.vv has no `start` that would make a mesh, so it needs one\n`-i MESH`"),
         ("run - -i -", "program and mesh cannot both be read from stdin"),
         ("run move.vv -i octahedron.obj -o -", "`-o -` does not say what to write\n--format"),
-        ("run move.vv -i octahedron.obj -o x.stl", "`-o x.stl` has no extension that vv writes\n`.obj`"),
+        ("run move.vv -i octahedron.obj -o x.stp", "`-o x.stp` has no extension that vv writes\n`.obj`"),
         ("run move.vv -i octahedron.obj -o x.obj -o x.obj", "`-o x.obj` is given twice"),
         ("run move.vv -i octahedron.obj -o - --format obj --summary json", "both need stdout"),
         ("run move.vv -i octahedron.obj --rule stil", "no rule `stil`\n`shift`, `still` and `step`\n--rule still"),

@@ -55,6 +55,7 @@ fn drop_degenerate(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> 
         report.repairs.push(quote(warning(message), dropped.len(), |i| dropped[i].clone()));
     }
     kept.positions = std::mem::take(&mut polygons.positions);
+    kept.values = std::mem::take(&mut polygons.values);
     Ok(kept)
 }
 
@@ -99,6 +100,7 @@ fn drop_duplicates(polygons: Polygons, report: &mut Report, stop: &Stop) -> Resu
         kept.names.push(polygons.names[f]);
     }
     kept.positions = polygons.positions;
+    kept.values = polygons.values;
     Ok(kept)
 }
 
@@ -108,7 +110,8 @@ fn drop_isolated(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> Re
         used[corner as usize] = true;
     }
     stop.check()?;
-    let isolated: Vec<u32> = (0..used.len() as u32).filter(|&v| !used[v as usize]).collect();
+    let (kept, isolated): (Vec<u32>, Vec<u32>) = (0..used.len() as u32).partition(|&v| used[v as usize]);
+    polygons.origins = kept;
     if isolated.is_empty() {
         return Ok(polygons);
     }

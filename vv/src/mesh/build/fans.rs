@@ -31,8 +31,13 @@ struct Fans {
     duplicates: Vec<(u32, bool)>,
 }
 
-/// Makes the mesh from oriented polygons.
-pub(super) fn mesh(polygons: &Polygons, edges: &Edges, report: &mut Report, stop: &Stop) -> Result<Mesh, BuildError> {
+/// Makes the mesh from oriented polygons, and says which vertex each duplicate at its end duplicates.
+pub(super) fn mesh(
+    polygons: &Polygons,
+    edges: &Edges,
+    report: &mut Report,
+    stop: &Stop,
+) -> Result<(Mesh, Vec<u32>), BuildError> {
     let mut apart = vec![false; polygons.len()];
     for round in 0..ROUNDS + 2 {
         let (pairs, crowded) = edges.pairs(polygons, &apart, stop)?;
@@ -45,7 +50,7 @@ pub(super) fn mesh(polygons: &Polygons, edges: &Edges, report: &mut Report, stop
         match fans.mesh(polygons, edges, &pairs, stop)? {
             Rings::Mesh(mesh) => {
                 fans.report(polygons, edges, &crowded, report);
-                return Ok(mesh);
+                return Ok((mesh, fans.duplicates.iter().map(|&(v, _)| v).collect()));
             }
             Rings::Parallel(faces) if round < ROUNDS => faces.into_iter().for_each(|f| apart[f as usize] = true),
             // Then no face that touches a crowded edge has a neighbour, so no ring can name a vertex twice any more.
