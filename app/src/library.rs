@@ -22,6 +22,8 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "butterfly.vv", text: include_str!("../../assets/programs/butterfly.vv") },
     Shipped { name: "sqrt3.vv", text: include_str!("../../assets/programs/sqrt3.vv") },
     Shipped { name: "midedge.vv", text: include_str!("../../assets/programs/midedge.vv") },
+    Shipped { name: "four-eight.vv", text: include_str!("../../assets/programs/four-eight.vv") },
+    Shipped { name: "conway.vv", text: include_str!("../../assets/programs/conway.vv") },
     Shipped { name: "curves.vv", text: include_str!("../../assets/programs/curves.vv") },
     Shipped { name: "limit.vv", text: include_str!("../../assets/programs/limit.vv") },
     Shipped { name: "smooth.vv", text: include_str!("../../assets/programs/smooth.vv") },

@@ -1,5 +1,7 @@
 //! What schemes keep: topology, affine maps, the lattice, polynomials, limit positions, handedness.
 
+use std::f64::consts::PI;
+
 use glam::{DMat3, DVec3, dvec3};
 use vv::mesh::Mesh;
 use vv::mesh::faces::faces;
@@ -24,13 +26,21 @@ fn refining() -> Vec<(&'static str, &'static str, &'static [&'static str])> {
         ("loop-creases.vv", "loop_creases", &TRIANGLES),
         ("butterfly.vv", "butterfly", &TRIANGLES),
         ("sqrt3.vv", "sqrt3", &TRIANGLES),
+        ("four-eight.vv", "four_eight", &TRIANGLES),
+        ("four-eight.vv", "four_eight", &QUADS),
+        ("conway.vv", "kis", &QUADS),
+        ("conway.vv", "gyro", &QUADS),
     ]
 }
 
-/// All schemes, those that shrink open meshes and those that keep the faces, too.
+/// All schemes without handedness, those that shrink open meshes and those that keep the faces, too.
 fn all() -> Vec<(&'static str, &'static str, &'static [&'static str])> {
     let mut all = refining();
+    all.retain(|(_, rule, _)| *rule != "gyro");
     all.extend([
+        ("conway.vv", "dual", &QUADS[..3]),
+        ("conway.vv", "truncate", &QUADS),
+        ("conway.vv", "bevel", &QUADS),
         ("midedge.vv", "midedge", &TRIANGLES[..]),
         ("midedge.vv", "midedge", &QUADS),
         ("limit.vv", "loop_limit", &TRIANGLES),
@@ -108,6 +118,9 @@ fn flat_regular_meshes_stay_on_a_lattice() {
         ("sqrt3.vv", "sqrt3", Around::Triangles, 3.0),
         ("midedge.vv", "midedge", Around::Triangles, 2.0),
         ("midedge.vv", "midedge", Around::Quads, 2.0),
+        ("four-eight.vv", "four_eight", Around::Quads, 2.0),
+        ("conway.vv", "dual", Around::Triangles, 3.0),
+        ("conway.vv", "expand", Around::Quads, 4.0),
         ("limit.vv", "loop_limit", Around::Triangles, 1.0),
         ("limit.vv", "catmull_clark_limit", Around::Quads, 1.0),
     ] {
@@ -177,5 +190,61 @@ fn schemes_that_have_no_handedness_commute_with_a_mirror() {
         for name in meshes {
             assert!(keeps_mirror_images(&scheme, &shaken(&Surface::asset(name).mesh())), "{file} {name}");
         }
+    }
+}
+
+#[test]
+fn gyro_and_snub_have_a_handedness() {
+    for rule in ["gyro", "snub"] {
+        let scheme = Scheme::new("conway.vv", rule);
+        for name in ["cube.obj", "tetrapod.obj"] {
+            let mesh = shaken(&Surface::asset(name).mesh());
+            assert!(!keeps_mirror_images(&scheme, &mesh), "{rule} {name}");
+        }
+    }
+}
+
+#[test]
+fn the_other_hand_of_gyro_gives_the_mirror_image() {
+    let right = Scheme::new("conway.vv", "gyro");
+    let hand = |pair: &str, place: &str| {
+        format!(
+            "forall {pair} in f {{
+      if (!is p in S) continue;
+      c$pos += 3.0 * p$pos / valence f;
+      splice c {place} p in x;"
+        )
+    };
+    let left = Scheme::changed("conway.vv", "gyro", &hand("p, x", "before"), &hand("x, p", "after"));
+    let mesh = shaken(&Surface::asset("cube.obj").mesh());
+    let [a, b] = [mirrored(&right.steps(&mesh, 1)), left.steps(&mirrored(&mesh), 1)];
+    isomorphic(&shape(&a), &shape(&b), 1e-9).unwrap();
+}
+
+fn corner(mesh: &Mesh, a: usize, p: usize, q: usize) -> f64 {
+    let at = |v: usize| mesh.positions()[v];
+    (at(p) - at(a)).angle_between(at(q) - at(a))
+}
+
+/// Flips to Delaunay keep the vertices and the number of edges, and end where no edge sees more than half a turn.
+#[test]
+fn flips_end_in_a_delaunay_triangulation() {
+    let scheme = Scheme::new("delaunay.vv", "delaunay");
+    for (k, open) in [(12, false), (5, true), (7, false)] {
+        let stretched = moved(&star(k, 3, Around::Triangles, open).mesh(), |p| dvec3(p.x, 0.3 * p.y + 0.1 * p.x, 0.0));
+        let mesh = moved(&shaken(&stretched), |p| p.with_z(0.0));
+        let bad = |mesh: &Mesh| {
+            let surface = Surface::of(mesh);
+            let sees = |&(p, q): &(usize, usize)| match (surface.across(p, q), surface.across(q, p)) {
+                (Some(a), Some(b)) => corner(mesh, a, p, q) + corner(mesh, b, p, q) > PI + 1e-9,
+                _ => false,
+            };
+            surface.edges().iter().filter(|e| sees(e)).count()
+        };
+        let flipped = scheme.steps(&mesh, 20);
+        assert!(bad(&mesh) > 5 && bad(&flipped) == 0, "{} {}", bad(&mesh), bad(&flipped));
+        assert_eq!(flipped.positions(), mesh.positions());
+        assert_eq!(count(&flipped).edges, count(&mesh).edges);
+        assert!(count(&flipped).valid);
     }
 }

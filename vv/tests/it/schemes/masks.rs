@@ -188,3 +188,66 @@ fn four_point_curves() {
 fn chaikin_curves() {
     check_curve("chaikin", published::chaikin);
 }
+
+#[test]
+fn conway_operators() {
+    type Operator = fn(&Surface) -> Refined;
+    let (dual, kis, ambo): (Operator, Operator, Operator) = (published::dual, published::kis, published::midedge);
+    let (gyro, truncate): (Operator, Operator) = (published::gyro, published::truncate);
+    let table: [(&str, &[Operator]); 13] = [
+        ("dual", &[dual]),
+        ("kis", &[kis]),
+        ("ambo", &[ambo]),
+        ("gyro", &[gyro]),
+        ("truncate", &[truncate]),
+        ("join", &[dual, ambo]),
+        ("expand", &[ambo, ambo]),
+        ("ortho", &[dual, ambo, dual, ambo]),
+        ("bevel", &[truncate, ambo]),
+        ("meta", &[kis, dual, ambo]),
+        ("zip", &[dual, kis]),
+        ("needle", &[kis, dual]),
+        ("snub", &[dual, gyro, dual]),
+    ];
+    for (rule, operators) in table {
+        let scheme = Scheme::new("conway.vv", rule);
+        for name in ["tetrahedron.obj", "cube.obj", "octahedron.obj", "dodecahedron.obj"] {
+            let surface = Surface::asset(name);
+            check(&format!("{rule} {name}"), &scheme, &surface, &published::compose(&surface, operators));
+        }
+    }
+}
+
+/// The five that stand for themselves, beside holes.
+#[test]
+fn conway_operators_at_a_boundary() {
+    type Operator = fn(&Surface) -> Refined;
+    let table: [(&str, Operator); 4] = [
+        ("dual", published::dual),
+        ("kis", published::kis),
+        ("gyro", published::gyro),
+        ("truncate", published::truncate),
+    ];
+    for (rule, operator) in table {
+        let scheme = Scheme::new("conway.vv", rule);
+        for (k, around) in [(2, Around::Quads), (3, Around::Triangles), (5, Around::Quads)] {
+            let surface = star(k, 2, around, true);
+            check(&format!("{rule} {k}"), &scheme, &surface, &operator(&surface));
+        }
+    }
+}
+
+#[test]
+fn four_eight() {
+    let scheme = Scheme::new("four-eight.vv", "four_eight");
+    for (name, surface) in stars(Around::Triangles, 1).chain(stars(Around::Quads, 1)) {
+        check(&name, &scheme, &surface, &published::four_eight(&surface, true));
+        let mut mesh = surface.mesh();
+        for step in 2..=3 {
+            mesh = scheme.steps(&mesh, 1);
+            let expected = published::four_eight(&Surface::of(&mesh), false);
+            let result = scheme.measure(&mesh).and_then(|measured| compare(&measured, &expected));
+            result.unwrap_or_else(|difference| panic!("{name}, step {step}: {difference}"));
+        }
+    }
+}

@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 
+use glam::DVec3;
+
 use super::surface::Surface;
 
 /// A refined mesh: its vertices as weights of the old ones, and how they hang together.
@@ -339,4 +341,131 @@ pub fn chaikin(curve: &Curve) -> Refined {
         }
     }
     refined
+}
+
+/// The middles of the faces as vertices, a face for each inner vertex, and for each inner edge an edge.
+pub fn dual(surface: &Surface) -> Refined {
+    let n = surface.points.len();
+    let masks = surface.faces.iter().map(|f| middle(n, f)).collect();
+    let around = |v: usize| surface.neighbours(v).into_iter().map(|q| surface.corner(v, q).unwrap().0).collect();
+    let faces = (0..n).filter(|&v| surface.boundary(v).is_none()).map(around).collect();
+    let mut refined = Refined::of(masks, faces);
+    for (p, q) in surface.edges() {
+        if let (Some((f, _)), Some((g, _))) = (surface.corner(p, q), surface.corner(q, p)) {
+            refined.edges.insert((f.min(g), f.max(g)));
+        }
+    }
+    refined
+}
+
+fn middle(n: usize, face: &[usize]) -> Vec<f64> {
+    mask(n, face.iter().map(|&v| (v, 1.0 / face.len() as f64)))
+}
+
+fn one(n: usize, v: usize) -> Vec<f64> {
+    mask(n, [(v, 1.0)])
+}
+
+/// A pyramid on each face.
+pub fn kis(surface: &Surface) -> Refined {
+    let n = surface.points.len();
+    let mut masks: Vec<_> = (0..n).map(|v| one(n, v)).collect();
+    let mut faces = Vec::new();
+    for face in &surface.faces {
+        let c = masks.len();
+        masks.push(middle(n, face));
+        faces.extend((0..face.len()).map(|i| vec![face[i], face[(i + 1) % face.len()], c]));
+    }
+    Refined::of(masks, faces)
+}
+
+/// Numbers by directed edge.
+type Numbers = BTreeMap<(usize, usize), usize>;
+
+/// Two points on each edge, by (p, q) the one near p; numbers begin at `first`.
+fn thirds(surface: &Surface, first: usize) -> (Numbers, Vec<Vec<f64>>) {
+    let n = surface.points.len();
+    let both = surface.edges().into_iter().flat_map(|(p, q)| [(p, q), (q, p)]);
+    let number: Numbers = both.enumerate().map(|(i, e)| (e, first + i)).collect();
+    let mut masks = vec![Vec::new(); number.len()];
+    for (&(p, q), &x) in &number {
+        masks[x - first] = mask(n, [(p, 2.0 / 3.0), (q, 1.0 / 3.0)]);
+    }
+    (number, masks)
+}
+
+/// Corners cut off at the thirds of the edges; the cut makes no face at the boundary.
+pub fn truncate(surface: &Surface) -> Refined {
+    let (number, masks) = thirds(surface, 0);
+    let pair = |f: &[usize], i: usize| (f[i], f[(i + 1) % f.len()]);
+    let cut = |f: &Vec<usize>| {
+        (0..f.len()).map(|i| pair(f, i)).flat_map(|(p, q)| [number[&(p, q)], number[&(q, p)]]).collect()
+    };
+    let mut faces: Vec<Vec<usize>> = surface.faces.iter().map(cut).collect();
+    let inner = (0..surface.points.len()).filter(|&v| surface.boundary(v).is_none());
+    faces.extend(inner.map(|v| surface.neighbours(v).into_iter().map(|q| number[&(v, q)]).collect()));
+    Refined::of(masks, faces)
+}
+
+/// A pentagon for each corner, between the middle of the face and the first thirds of the edges as one walks round it
+/// counter-clockwise.
+pub fn gyro(surface: &Surface) -> Refined {
+    let n = surface.points.len();
+    let (number, edge_masks) = thirds(surface, n);
+    let mut masks: Vec<_> = (0..n).map(|v| one(n, v)).chain(edge_masks).collect();
+    let mut faces = Vec::new();
+    for face in &surface.faces {
+        let c = masks.len();
+        masks.push(middle(n, face));
+        for i in 0..face.len() {
+            let [p, q, r] = [0, 1, 2].map(|j| face[(i + j) % face.len()]);
+            faces.push(vec![c, number[&(p, q)], number[&(q, p)], q, number[&(q, r)]]);
+        }
+    }
+    Refined::of(masks, faces)
+}
+
+/// One operator after the other, the last one written first.
+pub fn compose(surface: &Surface, operators: &[fn(&Surface) -> Refined]) -> Refined {
+    let n = surface.points.len();
+    let mut all =
+        Refined { masks: (0..n).map(|v| one(n, v)).collect(), faces: surface.faces.clone(), ..Refined::default() };
+    for operator in operators.iter().rev() {
+        let next = operator(&Surface::new(vec![DVec3::ZERO; all.masks.len()], all.faces));
+        let masks = next.masks.iter().map(|m| blend(m.iter().copied().zip(&all.masks))).collect();
+        all = Refined { masks, ..next };
+    }
+    all
+}
+
+/// Velho and Zorin 2001. The first step puts a point into each face; in others, triangles are halved at the edge across
+/// their newest vertex, that of the greatest number.
+pub fn four_eight(surface: &Surface, first: bool) -> Refined {
+    let n = surface.points.len();
+    let apex = |p: usize, q: usize| surface.across(p, q).filter(|&a| a > p && a > q);
+    let halved = |p: usize, q: usize| !first && (apex(p, q).is_some() || apex(q, p).is_some());
+    let vertex = |v: usize| match surface.boundary(v) {
+        Some([a, b]) if halved(v, a) => mask(n, [(a, 1.0 / 8.0), (v, 3.0 / 4.0), (b, 1.0 / 8.0)]),
+        Some(_) => one(n, v),
+        None => {
+            let kept: Vec<_> = surface.neighbours(v).into_iter().filter(|&q| !halved(v, q)).collect();
+            let w = 0.5 / kept.len() as f64;
+            mask(n, kept.into_iter().map(|q| (q, w)).chain([(v, 0.5)]))
+        }
+    };
+    let mut refined = if first { kis(surface) } else { Refined::default() };
+    if !first {
+        refined.masks.resize(n, Vec::new());
+        for (p, q) in surface.edges().into_iter().filter(|&(p, q)| halved(p, q)) {
+            let x = refined.masks.len();
+            let around: Vec<_> = [p, q].into_iter().chain(apex(p, q)).chain(apex(q, p)).collect();
+            let corners = if around.len() == 4 { &around[..] } else { &around[..2] };
+            refined.masks.push(middle(n, corners));
+            for (p, q) in [(p, q), (q, p)] {
+                refined.faces.extend(apex(p, q).into_iter().flat_map(|a| [vec![p, x, a], vec![x, q, a]]));
+            }
+        }
+    }
+    (0..n).for_each(|v| refined.masks[v] = vertex(v));
+    Refined::of(refined.masks, refined.faces)
 }
