@@ -6,7 +6,8 @@
 //
 // n is the normal on the side that is seen, v points to the eye; all in view coordinates and linear colours. Flat
 // shading takes the normal of the face from the first corner of the triangle, smooth shading interpolates those of the
-// vertices. The back of a face has an albedo of its own.
+// vertices. The back of a face has an albedo of its own. Where vertices have colours these are the albedo, interpolated
+// as light; backs are darker then.
 
 const UP = vec3(0.0, 0.98, 0.2);
 const SKY = vec3(0.40, 0.43, 0.48);
@@ -25,6 +26,20 @@ struct Varying {
     @location(0) view_position: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) @interpolate(flat, either) face_normal: vec3<f32>,
+    @location(3) color: vec4<f32>, // linear; opacity 0 without colour
+}
+
+const BACK = 0.55; // brightness of the backs of coloured faces
+
+fn corner(position: vec3<f32>, normal: u32, face_normal: u32, color: vec4<f32>) -> Varying {
+    let turn = mat3x3(frame.view_from_scene[0].xyz, frame.view_from_scene[1].xyz, frame.view_from_scene[2].xyz);
+    var out: Varying;
+    out.position = to_tile(frame.clip_from_scene * vec4(position, 1.0));
+    out.view_position = (frame.view_from_scene * vec4(position, 1.0)).xyz;
+    out.normal = turn * unpack_normal(normal);
+    out.face_normal = turn * unpack_normal(face_normal);
+    out.color = color;
+    return out;
 }
 
 @vertex
@@ -33,13 +48,20 @@ fn vertex(
     @location(1) normal: u32,
     @location(2) face_normal: u32,
 ) -> Varying {
-    let turn = mat3x3(frame.view_from_scene[0].xyz, frame.view_from_scene[1].xyz, frame.view_from_scene[2].xyz);
-    var out: Varying;
-    out.position = to_tile(frame.clip_from_scene * vec4(position, 1.0));
-    out.view_position = (frame.view_from_scene * vec4(position, 1.0)).xyz;
-    out.normal = turn * unpack_normal(normal);
-    out.face_normal = turn * unpack_normal(face_normal);
-    return out;
+    return corner(position, normal, face_normal, vec4(0.0));
+}
+
+// Colours come as sRGB (IEC 61966-2-1).
+@vertex
+fn vertex_with_color(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: u32,
+    @location(2) face_normal: u32,
+    @location(3) color: vec4<f32>,
+) -> Varying {
+    let curve = pow((color.rgb + 0.055) / 1.055, vec3(2.4));
+    let light = select(curve, color.rgb / 12.92, color.rgb <= vec3(0.04045));
+    return corner(position, normal, face_normal, vec4(light, 1.0));
 }
 
 @fragment
@@ -50,7 +72,8 @@ fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec
     // Interpolated normals may point away from the eye near the outline: bend them back to just seen.
     n = normalize(n - min(dot(n, v), 0.0) * v);
 
-    let albedo = select(frame.back.rgb, frame.front.rgb, front);
+    let plain = select(frame.back.rgb, frame.front.rgb, front);
+    let albedo = mix(plain, in.color.rgb * select(BACK, 1.0, front), in.color.a);
     let light = mix(GROUND, SKY, dot(n, UP) * 0.5 + 0.5)
         + KEY * max(dot(n, KEY_DIRECTION), 0.0)
         + FILL * max(dot(n, FILL_DIRECTION), 0.0);

@@ -189,9 +189,14 @@ impl Renderer {
                 if style.faces
                     && let Some(faces) = &scene.faces
                 {
-                    pass.set_pipeline(&self.pipelines.faces);
+                    let colors = faces.colors.as_ref().filter(|_| style.colors);
+                    let colored = colors.map(|_| &self.pipelines.colored_faces);
+                    pass.set_pipeline(colored.unwrap_or(&self.pipelines.faces));
                     target.bind(&mut pass, 0);
                     pass.set_vertex_buffer(0, faces.corners.slice(..));
+                    if let Some(colors) = colors {
+                        pass.set_vertex_buffer(1, colors.slice(..));
+                    }
                     pass.set_index_buffer(faces.indices.slice(..), wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(0..faces.index_count, 0, 0..1);
                 }

@@ -18,7 +18,7 @@ use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 use vv::stop::{Stop, Stopped};
 
-pub use part::{Corner, Part};
+pub use part::{Corner, Part, pack_color};
 
 /// Light or dark surroundings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -39,6 +39,8 @@ pub struct Style {
     pub faces: bool,
     /// Shade with vertex normals instead of face normals.
     pub smooth: bool,
+    /// Colour the faces by the vertex property [`vv::io::COLOR`], where there is one.
+    pub colors: bool,
     /// Draw the edges.
     pub edges: bool,
     /// Draw the vertices.
@@ -60,6 +62,7 @@ impl Default for Style {
         Self {
             faces: true,
             smooth: false,
+            colors: true,
             edges: true,
             vertices: false,
             control: false,

@@ -16,6 +16,8 @@ pub(super) fn color_format(opengl: bool) -> wgpu::TextureFormat {
 pub(super) struct Pipelines {
     pub background: wgpu::RenderPipeline,
     pub faces: wgpu::RenderPipeline,
+    /// Faces with colours of vertices.
+    pub colored_faces: wgpu::RenderPipeline,
     edges: wgpu::RenderPipeline,
     vertices: wgpu::RenderPipeline,
     hidden_edges: wgpu::RenderPipeline,
@@ -30,17 +32,24 @@ pub(super) struct Pipelines {
 struct Pass {
     name: &'static str,
     shader: &'static str,
+    /// The entry point of the vertex shader.
+    vertex: &'static str,
     depth: wgpu::CompareFunction,
     /// Covers what is there and writes depth; otherwise blends over it.
     solid: bool,
     buffers: &'static [Option<wgpu::VertexBufferLayout<'static>>],
 }
 
-const CORNERS: &[Option<wgpu::VertexBufferLayout<'static>>] = &[Some(wgpu::VertexBufferLayout {
+const CORNER: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<crate::scene::Corner>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32],
-})];
+};
+const COLOR: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<u32>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![3 => Unorm8x4],
+};
 
 impl Pipelines {
     pub(super) fn new(device: &wgpu::Device, color: wgpu::TextureFormat, samples: u32) -> Self {
@@ -64,15 +73,25 @@ impl Pipelines {
             immediate_size: 0,
         });
         let lines = |name, shader, depth| {
-            let pass = Pass { name, shader, depth, solid: false, buffers: &[] };
+            let pass = Pass { name, shader, vertex: "vertex", depth, solid: false, buffers: &[] };
             pipeline(device, &layout, (color, samples), &pass)
         };
-        let faces = Pass { name: "faces", shader: shaders::FACES, depth: Greater, solid: true, buffers: CORNERS };
-        let background =
-            Pass { name: "background", shader: shaders::BACKGROUND, depth: Always, solid: false, buffers: &[] };
+        let faces = |name, vertex, buffers| {
+            let pass = Pass { name, shader: shaders::FACES, vertex, depth: Greater, solid: true, buffers };
+            pipeline(device, &flat_layout, (color, samples), &pass)
+        };
+        let background = Pass {
+            name: "background",
+            shader: shaders::BACKGROUND,
+            vertex: "vertex",
+            depth: Always,
+            solid: false,
+            buffers: &[],
+        };
         Self {
             background: pipeline(device, &flat_layout, (color, samples), &background),
-            faces: pipeline(device, &flat_layout, (color, samples), &faces),
+            faces: faces("faces", "vertex", const { &[Some(CORNER)] }),
+            colored_faces: faces("coloured faces", "vertex_with_color", const { &[Some(CORNER), Some(COLOR)] }),
             edges: lines("edges", shaders::EDGES, GreaterEqual),
             vertices: lines("vertices", shaders::VERTICES, GreaterEqual),
             hidden_edges: lines("hidden edges", shaders::EDGES, Less),
@@ -130,7 +149,7 @@ fn pipeline(
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module: &module,
-            entry_point: Some("vertex"),
+            entry_point: Some(pass.vertex),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             buffers: pass.buffers,
         },

@@ -23,6 +23,7 @@ pub struct Uploaded {
 #[derive(Debug)]
 pub(super) struct FaceBuffers {
     pub corners: wgpu::Buffer,
+    pub colors: Option<wgpu::Buffer>,
     pub indices: wgpu::Buffer,
     pub index_count: u32,
 }
@@ -68,6 +69,8 @@ impl Uploaded {
         let (_, control) = upload.part(pipelines, &scene.control).unzip();
         let faces = mesh_corners.filter(|_| !scene.mesh.triangles.is_empty()).map(|corners| FaceBuffers {
             corners,
+            colors: (!scene.mesh.colors.is_empty())
+                .then(|| upload.buffer("colors", wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&scene.mesh.colors))),
             indices: if opengl {
                 // Here the last corner of a triangle speaks for it.
                 let turned: Vec<_> = scene.mesh.triangles.iter().map(|&[a, b, c]| [b, c, a]).collect();

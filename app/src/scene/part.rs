@@ -2,9 +2,10 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
+use vv::io::COLOR;
 use vv::mesh::faces::Faces;
 use vv::mesh::triangulate::{Triangulator, newell};
-use vv::mesh::{Mesh, Vertex};
+use vv::mesh::{Mesh, Values, Vertex};
 use vv::stop::{Stop, Stopped};
 
 /// A vertex as the GPU reads it: five words.
@@ -28,6 +29,8 @@ pub struct Corner {
 pub struct Part {
     /// First one for each vertex — those without edges first —, then what the faces need in addition.
     pub corners: Vec<Corner>,
+    /// The colours of the corners as [`pack_color`] packs them, if vertices have colours; else none.
+    pub colors: Vec<u32>,
     /// How many of `corners` stand for vertices.
     pub vertex_count: u32,
     /// How many of these have no edge, and are therefore drawn even where others are not.
@@ -66,7 +69,8 @@ impl Part {
         let places = part.add_vertices(mesh, to_scene);
         part.add_edges(mesh, faces, &places, stop)?;
         if fill == Fill::Faces {
-            part.add_faces(faces, &places, stop)?;
+            let further = part.add_faces(faces, &places, stop)?;
+            part.add_colors(mesh, &places, &further);
         }
         Ok(part)
     }
@@ -116,8 +120,9 @@ impl Part {
         Ok(())
     }
 
-    /// Triangles, and normals of faces and vertices.
-    fn add_faces(&mut self, faces: &Faces, places: &Places, stop: &Stop) -> Result<(), Stopped> {
+    /// Triangles, and normals of faces and vertices. Returns the vertex for which each further corner stands, by its
+    /// corner.
+    fn add_faces(&mut self, faces: &Faces, places: &Places, stop: &Stop) -> Result<Vec<u32>, Stopped> {
         let mut normals = vec![DVec3::ZERO; self.corners.len()];
         let mut speaks = vec![false; self.corners.len()];
         let mut extra: Vec<u32> = Vec::new(); // the vertex of each further corner
@@ -169,7 +174,22 @@ impl Part {
         for (corner, &vertex) in further.iter_mut().zip(&extra) {
             corner.normal = own[vertex as usize].normal;
         }
-        Ok(())
+        Ok(extra)
+    }
+
+    /// Colours of vertices, if they have some, and of the further corners.
+    fn add_colors(&mut self, mesh: &Mesh, places: &Places, further: &[u32]) {
+        let column = mesh.vertex_properties().iter().find_map(|property| match &property.values {
+            Values::Vec(colors) if property.name == COLOR => Some(colors),
+            _ => None,
+        });
+        let Some(column) = column else { return };
+        self.colors = vec![0; self.vertex_count as usize];
+        for (&place, &color) in places.of.iter().zip(column.iter()).filter(|&(&place, _)| place != NONE) {
+            self.colors[place as usize] = pack_color(color);
+        }
+        let colors = &mut self.colors;
+        further.iter().for_each(|&vertex| colors.push(colors[vertex as usize]));
     }
 }
 
@@ -283,6 +303,13 @@ pub fn pack(n: Vec3) -> u32 {
         0 => 1,
         word => word,
     }
+}
+
+/// Packs red, green and blue from 0 to 1 (sRGB) into bytes, red lowest. What is no number is 0.
+#[must_use]
+pub fn pack_color(color: DVec3) -> u32 {
+    let [r, g, b] = color.to_array().map(|c| (c * 255.0).round() as u8);
+    u32::from_le_bytes([r, g, b, u8::MAX])
 }
 
 fn sign(v: Vec2) -> Vec2 {

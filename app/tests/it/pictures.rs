@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3, Vec3};
 use image::{Rgba, RgbaImage};
 
 use crate::fixtures::{
@@ -15,8 +15,8 @@ use crate::fixtures::{
 use app::camera::{self, Camera};
 use app::compare::pictures::{PictureDifference, compare_pictures};
 use app::render::{Headless, RenderError, Size};
-use app::scene::{Scene, Style, Theme};
-use vv::mesh::Mesh;
+use app::scene::{Scene, Style, Theme, pack_color};
+use vv::mesh::{Mesh, Value};
 
 /// Versions of the driver round differently; what a person would see is more.
 const TOLERANCE: f64 = 2.0 / 255.0;
@@ -135,6 +135,34 @@ fn flat_and_smooth_shading_need_no_other_scene() {
     let ball = scene(&ball(10));
     check("ball-flat", &ball, &Style { edges: false, ..Style::default() });
     check("ball-smooth", &ball, &Style { edges: false, smooth: true, ..Style::default() });
+}
+
+/// Gives vertices the colours of their places: red to the right, green upwards, blue to the front.
+fn colored(mut mesh: Mesh) -> Mesh {
+    let color = mesh.declare_vertex_property(vv::io::COLOR, Value::Vec(DVec3::ONE));
+    for v in mesh.vertices() {
+        mesh.set_vertex_value(color, v, Value::Vec(mesh.position(v).max(DVec3::ZERO)));
+    }
+    mesh
+}
+
+#[test]
+fn colours_of_vertices_are_blended_over_the_faces() {
+    let colored = scene(&colored(box_without_lid()));
+    check("colored", &colored, &Style::default());
+    let without = Style { colors: false, ..Style::default() };
+    assert_eq!(draw(&colored, &without), draw(&scene(&box_without_lid()), &without));
+}
+
+#[test]
+fn a_corner_that_stands_for_a_vertex_once_more_has_its_colour() {
+    let scene = scene(&colored(octahedron()));
+    assert!(scene.mesh.corners.len() > 6 && scene.mesh.colors.len() == scene.mesh.corners.len());
+    for (corner, &color) in scene.mesh.corners.iter().zip(&scene.mesh.colors) {
+        let expected = Vec3::from(corner.position).max(Vec3::ZERO).as_dvec3();
+        assert_eq!(color, pack_color(expected));
+    }
+    assert_eq!(pack_color(DVec3::new(0.2, f64::NAN, 7.0)).to_le_bytes(), [51, 0, 255, 255]);
 }
 
 #[test]
