@@ -65,11 +65,11 @@ macro_rules! mutations {
 }
 
 mutations! {
-    AddStepByTwo AddsNoMember AndIsOr AnyIsLast AssignsNoSet BoolIsMinusOne BreakIsContinue CallsWithZeros
+    AddStepByTwo AddsNoMember AndIsOr AnyIsLast AppendsNothing AssignsNoRing AssignsNoSet BeginsAtTheStart BoolIsMinusOne BreakIsContinue CallsWithZeros
     ComparesBoolsInverted ComparesDoublesInverted ComparesIntsInverted ComparesVecsByX ComparesVerticesInverted
     ConditionalIsSwapped CreatesWithoutDefaults CrossIsNegated DifferenceIsSwapped DividesIntsByOne DotForgetsZ
-    DoubleToIntRounds ErasesNothing ForgetsGapsOfValence IntSumIsDifference IntToDoubleUnsigned IsInRingInverted
-    IsInSetInverted LoopsSkipTheSecond MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
+    DoubleToIntRounds EditsNoRing ErasesNothing FollowsItself ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IsInRingInverted
+    IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
     NotDoesNothing OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
     ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StoresNoEdgeValue StoresNoMeshValue StoresNoY
 }

@@ -66,6 +66,11 @@ impl Faces {
         self.corners.capacity() * size_of::<Vertex>() + self.ends.capacity() * size_of::<u32>()
     }
 
+    /// The corners of all faces, and where each face ends among them.
+    pub(crate) fn into_parts(self) -> (Vec<Vertex>, Vec<u32>) {
+        (self.corners, self.ends)
+    }
+
     /// All corners of all faces.
     #[must_use]
     pub fn corners(&self) -> &[Vertex] {

@@ -37,6 +37,8 @@ pub(super) struct Context {
     pub(super) old_prefix: u64,
     pub(super) sets: *mut RawSet,
     pub(super) set_count: u64,
+    pub(super) lists: *mut RawList,
+    pub(super) list_count: u64,
     /// Copies of rings that loops walk while they edit them.
     pub(super) walk_count: u64,
     /// Where compiled code was stopped, an index of its sites.
@@ -55,6 +57,16 @@ pub(super) struct RawSet {
     pub(super) capacity: u64,
     /// The largest member.
     pub(super) last: u64,
+}
+
+/// A variable of type ring, which compiled code may push to.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub(super) struct RawList {
+    pub(super) start: *mut u32,
+    pub(super) len: u64,
+    /// What there is room for beside [`PADDING`].
+    pub(super) capacity: u64,
 }
 
 /// Slots that can be read, though they mean nothing, behind the last one in use.
@@ -161,6 +173,8 @@ offsets! {
     OLD_PREFIX old_prefix
     SETS sets
     SET_COUNT set_count
+    LISTS lists
+    LIST_COUNT list_count
     WALK_COUNT walk_count
     SITE site
     VALUE value
@@ -170,6 +184,11 @@ pub(super) const HEAD_SIZE: i64 = size_of::<Head>() as i64;
 pub(super) const HEAD_OFFSET: i32 = offset_of!(Head, offset) as i32;
 pub(super) const HEAD_LEN: i32 = offset_of!(Head, len) as i32;
 pub(super) const HEAD_CAPACITY: i32 = offset_of!(Head, capacity) as i32;
+
+pub(super) const LIST_SIZE: i64 = size_of::<RawList>() as i64;
+pub(super) const LIST_START: i32 = offset_of!(RawList, start) as i32;
+pub(super) const LIST_LEN: i32 = offset_of!(RawList, len) as i32;
+pub(super) const LIST_CAPACITY: i32 = offset_of!(RawList, capacity) as i32;
 
 pub(super) const SET_SIZE: i64 = size_of::<RawSet>() as i64;
 pub(super) const SET_ORDER: i32 = offset_of!(RawSet, order) as i32;

@@ -17,6 +17,8 @@ pub(super) struct Effects {
     pub(super) synchronizes: bool,
     /// Creates vertices.
     pub(super) creates: bool,
+    /// Changes a variable of type ring.
+    pub(super) lists: bool,
 }
 
 impl Effects {
@@ -25,6 +27,7 @@ impl Effects {
             edits: self.edits || other.edits,
             synchronizes: self.synchronizes || other.synchronizes,
             creates: self.creates || other.creates,
+            lists: self.lists || other.lists,
         }
     }
 }
@@ -47,6 +50,8 @@ pub(super) enum Keeping {
     Variable,
     /// Its address is taken.
     Memory,
+    /// It is a face that a loop walks.
+    Face,
 }
 
 /// Facts of a function.
@@ -94,8 +99,11 @@ impl Facts {
                 }
             }
             let function = &program.functions[i];
+            let faces = faces(function);
             let sets = function.locals.iter().enumerate().any(|(l, local)| {
-                matches!(local.ty, Type::Mesh | Type::Ring) && function.parameters.get(l) != Some(&Passing::Reference)
+                matches!(local.ty, Type::Mesh | Type::Ring)
+                    && function.parameters.get(l) != Some(&Passing::Reference)
+                    && !faces[l]
             });
             inline[i] = !order.cyclic[i]
                 && size[i] <= INLINE_SIZE
@@ -162,6 +170,13 @@ impl Own {
         self.size += 1;
         match node {
             Node::Stmt(s) => match s.kind {
+                StmtKind::Erase { from: Ring::Variable { .. }, .. }
+                | StmtKind::Replace { ring: Ring::Variable { .. }, .. }
+                | StmtKind::Splice { ring: Ring::Variable { .. }, .. }
+                | StmtKind::Append { .. } => {
+                    self.effects.lists = true;
+                    self.size += 4;
+                }
                 StmtKind::Make { .. }
                 | StmtKind::MakeRing { .. }
                 | StmtKind::Erase { .. }
@@ -182,6 +197,7 @@ impl Own {
                     self.calls.push(f.0 as usize);
                 }
                 self.effects.creates |= matches!(e.kind, ExprKind::Create);
+                self.effects.lists |= matches!(e.kind, ExprKind::AssignRing(..));
             }
             Node::Place(_) | Node::Ring(_) => {}
         }
@@ -237,6 +253,19 @@ fn callees_first(own: &[Own]) -> Order {
     order
 }
 
+/// Which variables are faces that a loop walks.
+fn faces(function: &Function) -> Vec<bool> {
+    let mut faces = vec![false; function.locals.len()];
+    each(&function.body, &mut |node| {
+        if let Node::Stmt(Stmt { kind: StmtKind::ForallFaces { local, .. }, .. }) = node
+            && let Some(face) = faces.get_mut(local.0 as usize)
+        {
+            *face = true;
+        }
+    });
+    faces
+}
+
 fn keeping(function: &Function, inline: &[bool]) -> Vec<Keeping> {
     let mut definitions = vec![0_u32; function.locals.len()];
     let mut addressed = vec![false; function.locals.len()];
@@ -283,10 +312,13 @@ fn keeping(function: &Function, inline: &[bool]) -> Vec<Keeping> {
         },
         Node::Place(_) | Node::Ring(_) => {}
     });
+    let faces = faces(function);
     (0..function.locals.len())
         .map(|i| {
             let reference = function.parameters.get(i) == Some(&Passing::Reference);
-            if addressed[i] || reference {
+            if faces[i] {
+                Keeping::Face
+            } else if addressed[i] || reference {
                 Keeping::Memory
             } else if definitions[i] > 1 || passed[i] {
                 Keeping::Variable

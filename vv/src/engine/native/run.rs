@@ -14,6 +14,8 @@
 //!   was written before it touches them ([`Run::enter`]) and makes all pointers anew before it returns
 //!   ([`Run::leave`]), for it may have moved them. Compiled code keeps no pointer into the arrays across a call that
 //!   may move them.
+//! - Lists and faces keep their vertices where they are until the list itself is edited; a loop walks a copy of a list
+//!   that its body may edit. The runtime reads only as many vertices as compiled code took from a list.
 //! - The arrays are not shared with another mesh while compiled code runs: [`own`] copies those that are.
 //! - A panic does not cross compiled frames: [`guard`] turns it into a status.
 //! - The native stack is bounded: every compiled function that is called asks whether there is room left.
@@ -21,6 +23,7 @@
 
 mod builtins;
 mod edges;
+mod lists;
 mod memory;
 mod print;
 mod rings;
@@ -36,13 +39,14 @@ use std::sync::Mutex;
 use cranelift_jit::JITModule;
 use cranelift_module::FuncId;
 
-use super::context::{Context, Layout, Memo, RawSet, byte_offset, status};
+use super::context::{Context, Layout, Memo, RawList, RawSet, byte_offset, status};
 use super::effects::OldReads;
 use crate::builtins::Random;
 use crate::engine::{Output, Settings};
 use crate::ir::{FunctionId, Program};
 use crate::mesh::{Mesh, Value, Values, Vertex, VertexSet};
 
+use lists::List;
 pub(super) use print::type_number;
 pub(super) use symbols::{Symbol, symbols};
 
@@ -147,8 +151,16 @@ pub(super) struct Run<'a> {
     returned: Option<Set>,
     /// Sets that loops walk.
     walked: Vec<VertexSet>,
+    /// Variables of type ring.
+    lists: Vec<List>,
+    /// Room for more.
+    spare_lists: Vec<List>,
+    raw_lists: Vec<RawList>,
+    returned_list: List,
+    /// Faces that loops walk: corners, and where each face ends.
+    walked_faces: Vec<(Vec<Vertex>, Vec<u32>)>,
     /// Copies of rings that loops walk while they edit them, and buffers for more.
-    walks: Vec<Vec<Vertex>>,
+    walks: Vec<List>,
     random: Random,
     lines: Vec<String>,
     printed: usize,
@@ -197,6 +209,11 @@ pub(super) fn run(
         raw_sets: Vec::new(),
         returned: None,
         walked: Vec::new(),
+        lists: Vec::new(),
+        spare_lists: Vec::new(),
+        raw_lists: Vec::new(),
+        returned_list: Vec::new(),
+        walked_faces: Vec::new(),
         walks: Vec::new(),
         random: Random::new(fixed.settings.seed, generation),
         lines: Vec::new(),

@@ -11,6 +11,7 @@ mod edit;
 mod emit;
 mod expression;
 mod known;
+mod list;
 mod place;
 mod ring;
 mod set;
@@ -29,13 +30,13 @@ use rustc_hash::FxHashMap;
 
 use super::Mutation;
 use super::context::{self, Layout, Memo, status};
-use super::effects::Facts;
+use super::effects::{Facts, Keeping};
 use super::run::Symbol;
 use crate::ir::{Function, FunctionId, Passing, Program, Type};
 use crate::mesh;
 use crate::source::Span;
 
-use known::Known;
+use known::{Bounds, Known};
 
 /// Why a program is left to the interpreter.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -80,7 +81,7 @@ pub(super) fn signature(function: &Function, mut signature: Signature) -> Transl
                     signature.params.push(AbiParam::new(t));
                 }
             }
-            (Type::Ring, _) => return Err(no_rings()),
+            (Type::Ring, _) => signature.params.push(AbiParam::new(types::I32)),
             (Type::Void, _) => return Err(Refused("a parameter has no type".to_owned())),
         }
     }
@@ -138,11 +139,6 @@ impl Val {
     }
 }
 
-/// Rings as values, faces and pairs are not compiled yet.
-fn no_rings() -> Refused {
-    Refused("rings and faces are not compiled yet".to_owned())
-}
-
 fn wrong_type() -> Refused {
     Refused("the program is not well-typed".to_owned())
 }
@@ -158,6 +154,10 @@ enum Storage {
     Memory(Value),
     /// Index of a set.
     Set(Value),
+    /// Index of a list: a variable of type ring.
+    List(Value),
+    /// A face that a loop walks.
+    Face(Bounds),
 }
 
 /// A function whose statements are being translated: the compiled one, or one that stands in for its call.
@@ -189,6 +189,8 @@ enum Walk {
     Set(Value),
     /// How many copies of rings were walked before.
     Ring(Value),
+    /// How many sets of faces were walked before.
+    Faces(Value),
 }
 
 /// Kinds of memory that do not overlap.
@@ -202,6 +204,9 @@ struct Regions {
     locals: MemFlagsData,
     sets: MemFlagsData,
     members: MemFlagsData,
+    /// Lists, and the vertices of lists and faces.
+    lists: MemFlagsData,
+    listed: MemFlagsData,
     columns: Vec<MemFlagsData>,
 }
 
@@ -220,6 +225,8 @@ pub(super) struct Translator<'t, 'p> {
     function_refs: FxHashMap<FunctionId, FuncRef>,
     /// How many sets there were before the function's own.
     set_mark: Option<Value>,
+    /// How many lists.
+    list_mark: Option<Value>,
     name: String,
     /// Nothing has been written to the mesh: the first statement of a rule is being translated.
     pristine: bool,
@@ -254,6 +261,8 @@ impl<'t, 'p> Translator<'t, 'p> {
             locals: region("locals"),
             sets: region("sets"),
             members: region("members"),
+            lists: region("lists"),
+            listed: region("listed"),
             columns: unit.program.vertex_properties.iter().map(|_| region("column")).collect(),
         };
         Self {
@@ -269,6 +278,7 @@ impl<'t, 'p> Translator<'t, 'p> {
             symbol_refs: FxHashMap::default(),
             function_refs: FxHashMap::default(),
             set_mark: None,
+            list_mark: None,
             name: name.to_owned(),
             pristine: false,
         }
@@ -284,6 +294,10 @@ impl<'t, 'p> Translator<'t, 'p> {
             function.locals.iter().enumerate().any(|(i, l)| l.ty == Type::Mesh && i >= function.parameters.len());
         if own_sets {
             self.set_mark = Some(self.load_context(types::I64, context::SET_COUNT));
+        }
+        let own_list = |i: usize| i >= function.parameters.len() && keeping[i] != Keeping::Face;
+        if function.locals.iter().enumerate().any(|(i, l)| l.ty == Type::Ring && own_list(i)) {
+            self.list_mark = Some(self.load_context(types::I64, context::LIST_COUNT));
         }
         let mut operands = 1;
         let entry = self.b.current_block().ok_or_else(wrong_type)?;
@@ -313,7 +327,12 @@ impl<'t, 'p> Translator<'t, 'p> {
                 }
                 (Type::Mesh, None) => Storage::Set(self.new_set()),
                 (Type::Value(ty), None) => self.allocate(ty, keeping[i]),
-                (Type::Ring, _) => return Err(no_rings()),
+                (Type::Ring, Some(_)) => {
+                    operands += 1;
+                    Storage::List(*parameters.get(operands - 1).ok_or_else(wrong_type)?)
+                }
+                (Type::Ring, None) if keeping[i] == Keeping::Face => Storage::None,
+                (Type::Ring, None) => Storage::List(self.new_list()),
                 (Type::Void, _) => Storage::None,
             };
             storage.push(place);
@@ -377,6 +396,7 @@ impl<'t, 'p> Translator<'t, 'p> {
         if let Some(mark) = self.set_mark {
             self.call(Symbol::SetDrop, &[mark]);
         }
+        self.drop_lists(self.list_mark);
         let depth = self.load_context(types::I64, context::DEPTH);
         let depth = self.b.ins().iadd_imm_s(depth, -1);
         self.store_context(depth, context::DEPTH);

@@ -1,7 +1,7 @@
 //! The arrays of a run: made unshared, handed to compiled code and taken back, grown.
 
-use super::super::context::{Context, PADDING, RawSet};
-use super::{Run, guard, status};
+use super::super::context::{Context, PADDING, RawList, RawSet};
+use super::{List, Run, guard, status};
 use crate::mesh::{Column, Mesh, Values, VertexSet};
 
 /// Bytes a vertex needs beside its properties, when memory is counted.
@@ -76,6 +76,10 @@ impl Run<'_> {
                 property.values.resize(slots, default);
             }
         }
+        for (list, raw) in self.lists.iter_mut().zip(&self.raw_lists) {
+            // SAFETY: compiled code has written all vertices up to `len`, which is within the capacity.
+            unsafe { list.set_len(raw.len as usize) };
+        }
         for (set, raw) in self.sets.iter_mut().zip(&self.raw_sets) {
             if raw.capacity > 0
                 && let Some(order) = set.members.ascending()
@@ -112,6 +116,16 @@ impl Run<'_> {
         let context = unsafe { &mut *self.context };
         context.vertex_capacity = capacity.min(max_vertices) as u64;
         self.leave_sets();
+        self.raw_lists.clear();
+        self.raw_lists.extend(self.lists.iter_mut().map(|list| RawList {
+            start: list.as_mut_ptr().cast(),
+            len: list.len() as u64,
+            capacity: list.capacity().saturating_sub(PADDING).min(i32::MAX as usize) as u64,
+        }));
+        // SAFETY: as in `enter`.
+        let context = unsafe { &mut *self.context };
+        context.lists = self.raw_lists.as_mut_ptr();
+        context.list_count = self.raw_lists.len() as u64;
     }
 
     fn leave_sets(&mut self) {
@@ -155,8 +169,10 @@ impl Run<'_> {
     pub(super) fn allows(&self, more: usize) -> bool {
         let sets: usize = self.sets.iter().map(|s| s.members.bytes()).sum();
         let walked: usize = self.walked.iter().map(VertexSet::bytes).sum();
-        let rings: usize = self.walks.iter().map(|ring| 4 * ring.capacity()).sum();
-        let used = self.mesh.bytes() + self.old.bytes() + sets + walked + rings + self.printed;
+        let lists = self.lists.iter().chain(&self.walks).chain(&self.spare_lists).chain([&self.returned_list]);
+        let lists: usize = lists.map(|list| 4 * list.capacity() + size_of::<List>()).sum();
+        let faces: usize = self.walked_faces.iter().map(|(c, e)| 4 * (c.capacity() + e.capacity())).sum();
+        let used = self.mesh.bytes() + self.old.bytes() + sets + walked + lists + faces + self.printed;
         used.saturating_add(more) <= self.fixed.settings.limits.max_bytes
     }
 

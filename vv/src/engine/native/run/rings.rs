@@ -1,7 +1,7 @@
 //! Rings and old values: what compiled code leaves to the runtime.
 
 use super::super::context::PADDING;
-use super::{Context, Run, guard, light, status, value_words, vertex};
+use super::{Context, Run, guard, light, status, vertex};
 use crate::mesh::{Mesh, Ring, Vertex};
 
 impl Run<'_> {
@@ -149,27 +149,6 @@ pub(super) extern "C" fn find(context: *mut Context, x: u32, v: u32, old: u32) -
 /// How many gaps a ring has.
 pub(super) extern "C" fn gaps(context: *mut Context, v: u32, old: u32) -> u32 {
     guard(context, 0, |run| Some(run.ring(vertex(v)?, old != 0).gaps() as u32))
-}
-
-/// Copies the neighbours of a vertex; where the copy begins and ends is in the words.
-pub(super) extern "C" fn walk(context: *mut Context, v: u32, old: u32) -> u32 {
-    guard(context, status::REPEAT, |run| {
-        // SAFETY: the context is valid and compiled code waits.
-        let count = unsafe { &mut (*run.context).walk_count };
-        let depth = *count as usize;
-        *count += 1;
-        if run.walks.len() <= depth {
-            run.walks.push(Vec::new());
-        }
-        let v = vertex(v)?;
-        let ring = if old != 0 { run.old.ring(v) } else { run.mesh.ring(v) };
-        let copy = run.walks.get_mut(depth)?;
-        copy.clear();
-        copy.extend(ring.vertices());
-        let bounds = copy.as_ptr_range();
-        value_words(run)[..2].copy_from_slice(&[bounds.start.addr() as u64, bounds.end.addr() as u64]);
-        run.allows(0).then_some(status::DONE)
-    })
 }
 
 /// An edge property between two vertices, into the words.

@@ -2,7 +2,7 @@
 
 use cranelift_codegen::ir::{Type, types};
 
-use super::{builtins, edges, memory, print, rings, sets};
+use super::{builtins, edges, lists, memory, print, rings, sets};
 
 macro_rules! runtime {
     ($($name:ident = $function:path, ($($operand:ident),*) $(-> $result:ident)?;)*) => {
@@ -60,7 +60,22 @@ runtime! {
     Splice = rings::splice, (I64, I32, I32, I32, I32) -> I32;
     Find = rings::find, (I64, I32, I32, I32) -> I32;
     Gaps = rings::gaps, (I64, I32, I32) -> I32;
-    Walk = rings::walk, (I64, I32, I32) -> I32;
+    Walk = lists::walk, (I64, I64, I32) -> I32;
+    ListNew = lists::list_new, (I64) -> I32;
+    ListCopy = lists::list_copy, (I64, I64, I32) -> I32;
+    ListDrop = lists::list_drop, (I64, I64);
+    ListAssign = lists::list_assign, (I64, I32, I64, I32) -> I32;
+    ListPush = lists::list_push, (I64, I32, I32) -> I32;
+    ListErase = lists::list_erase, (I64, I32, I32) -> I32;
+    ListReplace = lists::list_replace, (I64, I32, I32, I32) -> I32;
+    ListSplice = lists::list_splice, (I64, I32, I32, I32, I32) -> I32;
+    ListFind = lists::list_find, (I64, I64, I32, I32) -> I32;
+    ListBegin = lists::list_begin, (I64, I64, I32, I32, I32) -> I32;
+    ListReturn = lists::list_return, (I64, I64, I32) -> I32;
+    ListTake = lists::list_take, (I64) -> I32;
+    PrintList = lists::print_list, (I64, I64, I32) -> I32;
+    Faces = lists::faces, (I64, I32) -> I64;
+    FacesEnd = lists::faces_end, (I64, I64);
     EdgeLoad = rings::edge_load, (I64, I32, I32, I32, I32) -> I32;
     EdgeStore = rings::edge_store, (I64, I32, I32, I32) -> I32;
     MeshLoad = edges::mesh_load, (I64, I32, I32) -> I32;

@@ -19,7 +19,7 @@ impl<'p> Translator<'_, 'p> {
         if inline {
             return self.stand_in(id, function, arguments, span);
         }
-        let mut mark = None;
+        let (mut mark, mut list_mark) = (None, None);
         let mut operands = vec![self.context];
         for argument in arguments {
             match argument {
@@ -32,10 +32,17 @@ impl<'p> Translator<'_, 'p> {
                     self.fail_if_no_set(copy);
                     operands.push(copy);
                 }
+                Argument::Value(e) if e.ty == Type::Ring => {
+                    if list_mark.is_none() {
+                        list_mark = Some(self.load_context(types::I64, context::LIST_COUNT));
+                    }
+                    let list = self.copied_list(e)?;
+                    operands.push(list);
+                }
                 Argument::Value(e) => operands.extend_from_slice(self.expression(e)?.parts()),
                 Argument::Reference(local) => match self.address_of(*local)? {
                     Storage::Memory(address) => operands.push(address),
-                    Storage::Set(index) => operands.push(index),
+                    Storage::Set(index) | Storage::List(index) => operands.push(index),
                     _ => return Err(wrong_type()),
                 },
             }
@@ -82,6 +89,7 @@ impl<'p> Translator<'_, 'p> {
             _ => Val::Void,
         };
         self.drop_sets(mark);
+        self.drop_lists(list_mark);
         Ok(result)
     }
 

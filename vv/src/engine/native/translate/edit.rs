@@ -6,10 +6,11 @@ use cranelift_codegen::ir::{
 };
 
 use super::known::{Bounds, Key};
+use super::ring::{Source, unaligned};
 use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::ir::{Expr, Item, Ring, Side};
+use crate::ir::{Expr, Item, LocalId, Ring, Side};
 use crate::mesh::FRESH_CAPACITY;
 
 /// Rings made of more items than this are left to the runtime.
@@ -29,6 +30,15 @@ impl<'p> Translator<'_, 'p> {
             Item::Gap(_) => None,
             Item::Vertex(e) => Some(self.vertex(e)?),
         })
+    }
+
+    /// What is put into a ring, of which only that of a vertex takes a gap.
+    fn put_in(&mut self, item: &'p Item, ring: &Ring) -> Translated<Option<Value>> {
+        let x = self.put(item)?;
+        if let (Some(x), Ring::Variable { .. }) = (x, ring) {
+            self.not_null(x);
+        }
+        Ok(x)
     }
 
     pub(super) fn make(&mut self, items: &'p [Item], of: &'p Expr) -> Translated<()> {
@@ -67,6 +77,99 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(done);
         self.known.forget_rings(false);
         Ok(())
+    }
+
+    /// `make r nb_of v`
+    pub(super) fn make_ring(&mut self, ring: LocalId, of: &'p Expr) -> Translated<()> {
+        let v = self.vertex_not_null(of)?;
+        let from = self.list_bounds(ring)?;
+        let operands = [v, from.start, from.len];
+        self.edit(Symbol::Make, &operands, |t, Ways { slow, done }| {
+            let edge_values = t.load_context(types::I64, context::HAS_EDGE_VALUES);
+            t.leave_if(edge_values, slow);
+            for width in [4, 8] {
+                let [here, longer] = [(); 2].map(|()| t.b.create_block());
+                let long = t.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, from.len, width);
+                t.b.ins().brif(long, longer, &[], here, &[]);
+                t.continue_in(here);
+                t.make_ring_in_place(from, v, width, slow);
+                t.b.ins().jump(done, &[]);
+                t.continue_in(longer);
+            }
+            t.b.ins().jump(slow, &[]);
+        });
+        Ok(())
+    }
+
+    /// Makes a ring of the vertices of a list of at most `width`.
+    fn make_ring_in_place(&mut self, from: Bounds, v: Value, width: i64, slow: Block) {
+        let lanes = self.lanes(from.start, width, from.flags);
+        let end = self.b.ins().splat(types::I32X4, from.len);
+        let mut used = Vec::new();
+        let mut items = Vec::new();
+        for (k, &lane) in lanes.iter().enumerate() {
+            let numbers = self.lane_numbers(4 * k as u32);
+            let within = self.b.ins().icmp(IntCC::SignedLessThan, numbers, end);
+            // Lanes behind the end differ from every vertex and from each other.
+            let others = self.b.ins().bnot(numbers);
+            items.push(self.b.ins().bitselect(within, lane, others));
+            used.push(within);
+        }
+        let itself = self.b.ins().splat(types::I32X4, v);
+        let mut pairs: Vec<(Value, Value)> = items.iter().map(|&x| (x, itself)).collect();
+        for (k, &x) in items.iter().enumerate() {
+            pairs.extend([1, 2].map(|by| (x, self.rotated(x, by))));
+            for &y in &items[..k] {
+                pairs.extend([0, 1, 2, 3].map(|by| (x, self.rotated(y, by))));
+            }
+        }
+        let mut same = None;
+        for (x, y) in pairs {
+            let equal = self.b.ins().icmp(IntCC::Equal, x, y);
+            same = Some(same.map_or(equal, |same| self.b.ins().bor(same, equal)));
+        }
+        if let Some(same) = same {
+            let bad = self.b.ins().vany_true(same);
+            self.leave_if(bad, slow);
+        }
+        let head = self.head(v, false);
+        let heads = self.regions.heads;
+        let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+        let offset = self.b.ins().load(types::I32, heads, head, context::HEAD_OFFSET);
+        let kept = self.slot_address(offset, false);
+        let fits = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, capacity, from.len);
+        let (store, start) = self.block_with(&[types::I64]);
+        let fresh = self.b.create_block();
+        self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
+        self.continue_in(fresh);
+        let least = self.int32(FRESH_CAPACITY);
+        let room = self.b.ins().umax(from.len, least);
+        let taken = self.take_slots(head, room, slow);
+        let slots = unaligned(self.regions.slots);
+        let zero = self.int32(0);
+        let gaps = self.b.ins().splat(types::I32X4, zero);
+        for k in 0..2 {
+            self.b.ins().store(slots, gaps, taken, 16 * k);
+        }
+        self.jump_with(store, &[taken]);
+        self.continue_in(store);
+        let there = self.lanes(start[0], width, self.regions.slots);
+        for (k, ((lane, within), there)) in lanes.into_iter().zip(used).zip(there).enumerate() {
+            let result = self.b.ins().bitselect(within, lane, there);
+            if !self.mutated(Mutation::MakesNoRing) {
+                self.b.ins().store(slots, result, start[0], 16 * k as i32);
+            }
+        }
+        self.b.ins().store(heads, from.len, head, context::HEAD_LEN);
+    }
+
+    /// Lane i becomes lane i + by, once round.
+    fn rotated(&mut self, lanes: Value, by: u8) -> Value {
+        let bytes = self.b.ins().bitcast(types::I8X16, little_endian(), lanes);
+        let mask: Vec<u8> = (0..16).map(|i| (i + 4 * by) % 16).collect();
+        let mask = self.b.func.dfg.immediates.push(ConstantData::from(mask));
+        let rotated = self.b.ins().shuffle(bytes, bytes, mask);
+        self.b.ins().bitcast(types::I32X4, little_endian(), rotated)
     }
 
     /// Makes a ring of vertices, or goes to `slow` with nothing done.
@@ -116,8 +219,14 @@ impl<'p> Translator<'_, 'p> {
 
     pub(super) fn replace(&mut self, item: &'p Item, with: &'p Item, ring: &'p Ring) -> Translated<()> {
         let a = self.sought(item)?;
-        let x = self.put(with)?;
-        let v = self.ring_owner(ring)?;
+        let x = self.put_in(with, ring)?;
+        let v = match self.source(ring)? {
+            Source::Of { v, .. } => v,
+            Source::Variable(local) => {
+                let operands = [self.list_of(local)?, self.or_null(a), self.or_null(x)];
+                return self.edit_list(Symbol::ListReplace, &operands);
+            }
+        };
         let operands = [self.or_null(a), self.or_null(x), v];
         self.edit(Symbol::Replace, &operands, |t, ways| {
             if let (Some(a), Some(x)) = (a, x) {
@@ -131,9 +240,9 @@ impl<'p> Translator<'_, 'p> {
 
     /// Puts a vertex in the place of another.
     fn replace_in_place(&mut self, a: Value, x: Value, v: Value, Ways { slow, done }: Ways) {
-        let Bounds { start, len } = self.bounds(v, false);
+        let Bounds { start, len, flags } = self.bounds(v, false);
         self.by_width(len, 0, slow, |t, width| {
-            let lanes = t.lanes(start, width, false);
+            let lanes = t.lanes(start, width, flags);
             let here = t.matches(&lanes, a, len);
             let there = t.matches(&lanes, x, len);
             let next = t.b.create_block();
@@ -165,10 +274,16 @@ impl<'p> Translator<'_, 'p> {
     }
 
     pub(super) fn splice(&mut self, item: &'p Item, side: Side, anchor: &'p Item, ring: &'p Ring) -> Translated<()> {
-        let x = self.put(item)?;
+        let x = self.put_in(item, ring)?;
         let a = self.sought(anchor)?;
-        let v = self.ring_owner(ring)?;
         let before = self.int32(u32::from(side == Side::Before));
+        let v = match self.source(ring)? {
+            Source::Of { v, .. } => v,
+            Source::Variable(local) => {
+                let operands = [self.list_of(local)?, self.or_null(x), self.or_null(a), before];
+                return self.edit_list(Symbol::ListSplice, &operands);
+            }
+        };
         let operands = [self.or_null(x), self.or_null(a), v, before];
         self.edit(Symbol::Splice, &operands, |t, ways| {
             if let (Some(x), Some(a)) = (x, a) {
@@ -182,9 +297,9 @@ impl<'p> Translator<'_, 'p> {
 
     /// Splices a vertex into a ring without gaps, which moves to twice the room if it has none left.
     fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, Ways { slow, done }: Ways) {
-        let Bounds { start, len } = self.bounds(v, false);
+        let Bounds { start, len, flags } = self.bounds(v, false);
         self.by_width(len, 1, slow, |t, width| {
-            let lanes = t.lanes(start, width, false);
+            let lanes = t.lanes(start, width, flags);
             let here = t.matches(&lanes, a, len);
             let there = t.matches(&lanes, x, len);
             let next = t.b.create_block();
@@ -205,7 +320,7 @@ impl<'p> Translator<'_, 'p> {
             // Lanes behind `at` take what stands before them, `at` takes x.
             let mut shifted = vec![t.shift_lanes_up(lanes[0])];
             let before = t.b.ins().iadd_imm_s(start, 12);
-            shifted.extend(t.lanes(before, width - 4, false));
+            shifted.extend(t.lanes(before, width - 4, flags));
             let end = t.b.ins().splat(types::I32X4, len);
             let place = t.b.ins().splat(types::I32X4, at);
             let new = t.b.ins().splat(types::I32X4, x);
@@ -219,8 +334,7 @@ impl<'p> Translator<'_, 'p> {
                 let here = t.b.ins().icmp(IntCC::Equal, numbers, place);
                 let result = t.b.ins().bitselect(here, new, result);
                 // Lanes behind the ring get back what they hold, for it is another's; behind one that moved is nobody's.
-                let flags = t.unaligned(false);
-                t.b.ins().store(flags, result, start, 16 * k as i32);
+                t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
             }
             let len = t.b.ins().iadd_imm_s(len, 1);
             t.b.ins().store(heads, len, head, context::HEAD_LEN);
@@ -242,7 +356,7 @@ impl<'p> Translator<'_, 'p> {
         let room = self.b.ins().umax(twice, least);
         let start = self.take_slots(head, room, slow);
         // The ring itself fills the first lanes.
-        let flags = self.unaligned(false);
+        let flags = unaligned(self.regions.slots);
         let zero = self.int32(0);
         let gaps = self.b.ins().splat(types::I32X4, zero);
         for k in width / 4..width / 2 {
@@ -296,7 +410,13 @@ impl<'p> Translator<'_, 'p> {
 
     pub(super) fn erase(&mut self, item: &'p Item, from: &'p Ring) -> Translated<()> {
         let x = self.sought(item)?;
-        let v = self.ring_owner(from)?;
+        let v = match self.source(from)? {
+            Source::Of { v, .. } => v,
+            Source::Variable(local) => {
+                let operands = [self.list_of(local)?, self.or_null(x)];
+                return self.edit_list(Symbol::ListErase, &operands);
+            }
+        };
         let operands = [self.or_null(x), v];
         self.edit(Symbol::Erase, &operands, |t, ways| match x {
             Some(x) => t.erase_in_place(x, v, ways),
@@ -309,9 +429,9 @@ impl<'p> Translator<'_, 'p> {
 
     /// Takes a vertex out of a ring without gaps.
     fn erase_in_place(&mut self, x: Value, v: Value, Ways { slow, done }: Ways) {
-        let Bounds { start, len } = self.bounds(v, false);
+        let Bounds { start, len, flags } = self.bounds(v, false);
         self.by_width(len, 0, slow, |t, width| {
-            let lanes = t.lanes(start, width, false);
+            let lanes = t.lanes(start, width, flags);
             let here = t.matches(&lanes, x, len);
             let next = t.b.create_block();
             t.b.ins().brif(here, next, &[], done, &[]);
@@ -322,7 +442,7 @@ impl<'p> Translator<'_, 'p> {
             let index = t.b.ins().ctz(here);
             // Lanes from `index` on take what stands behind them; those behind the ring get back what they hold.
             let behind = t.b.ins().iadd_imm_s(start, 4);
-            let shifted = t.lanes(behind, width, false);
+            let shifted = t.lanes(behind, width, flags);
             let len = t.b.ins().iadd_imm_s(len, -1);
             let place = t.b.ins().splat(types::I32X4, index);
             let end = t.b.ins().splat(types::I32X4, len);
@@ -332,8 +452,7 @@ impl<'p> Translator<'_, 'p> {
                 let within = t.b.ins().icmp(IntCC::SignedLessThan, numbers, end);
                 let moved = t.b.ins().band(from, within);
                 let result = t.b.ins().bitselect(moved, shifted, lane);
-                let flags = t.unaligned(false);
-                t.b.ins().store(flags, result, start, 16 * k as i32);
+                t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
             }
             let head = t.head(v, false);
             let heads = t.regions.heads;

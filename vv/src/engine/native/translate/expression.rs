@@ -3,7 +3,8 @@
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::{InstBuilder, Type as ClifType, Value, types};
 
-use super::{Symbol, Translated, Translator, Val, clif_types, no_rings, wrong_type};
+use super::ring::Source;
+use super::{Symbol, Translated, Translator, Val, clif_types, wrong_type};
 use crate::engine::native::context;
 use crate::engine::native::{Mutation, RED_ZONE, STACK_SEGMENT};
 use crate::ir::{Binary, Comparison, Conversion, Expr, ExprKind, Item, Ring, Type, Unary};
@@ -77,39 +78,45 @@ impl<'p> Translator<'_, 'p> {
                 self.drop_sets(mark);
                 Ok(Val::Void)
             }
-            ExprKind::AssignRing(..) => Err(no_rings()),
+            ExprKind::AssignRing(local, value) => {
+                self.assign_list(*local, value)?;
+                Ok(Val::Void)
+            }
             ExprKind::Create => Ok(Val::One(self.create()?)),
             ExprKind::Any(ring) => {
-                let v = self.ring_owner(ring)?;
-                Ok(Val::One(self.any(v, ring.is_old())))
+                let source = self.source(ring)?;
+                let bounds = self.bounds_of(source)?;
+                Ok(Val::One(self.any(bounds)))
             }
             ExprKind::Next(item, ring) => self.look_up(item, ring, true),
             ExprKind::Previous(item, ring) => self.look_up(item, ring, false),
             ExprKind::IsInRing(item, ring) => {
                 let x = self.sought(item)?;
-                let v = self.ring_owner(ring)?;
-                if x.is_none() {
-                    return Ok(Val::One(self.has_gap(v, ring.is_old())));
+                let source = self.source(ring)?;
+                if let (None, Source::Of { v, old }) = (x, source) {
+                    return Ok(Val::One(self.has_gap(v, old)));
                 }
-                let found = self.find(x, v, ring.is_old());
+                let found = self.find(x, source)?;
                 let certain = self.b.ins().iconst(types::I8, 1);
                 let is = found.found.unwrap_or(certain);
                 Ok(Val::One(self.inverted_if(is, Mutation::IsInRingInverted)))
             }
             ExprKind::IsInSet(vertex, set) => self.is_in_set(vertex, set),
             ExprKind::Valence(ring) => {
-                let v = self.ring_owner(ring)?;
-                let mut gaps = self.gaps(v, ring.is_old());
-                if self.mutated(Mutation::ForgetsGapsOfValence) {
-                    gaps = self.int32(0);
-                }
-                let len = self.bounds(v, ring.is_old()).len;
-                let n = self.b.ins().isub(len, gaps);
+                let source = self.source(ring)?;
+                let len = self.bounds_of(source)?.len;
+                let n = match source {
+                    Source::Of { v, old } if !self.mutated(Mutation::ForgetsGapsOfValence) => {
+                        let gaps = self.gaps(v, old);
+                        self.b.ins().isub(len, gaps)
+                    }
+                    _ => len,
+                };
                 Ok(Val::One(self.b.ins().uextend(types::I64, n)))
             }
             ExprKind::Gaps(ring) => {
-                let v = self.ring_owner(ring)?;
-                let gaps = self.gaps(v, ring.is_old());
+                let Source::Of { v, old } = self.source(ring)? else { return Err(wrong_type()) };
+                let gaps = self.gaps(v, old);
                 Ok(Val::One(self.b.ins().uextend(types::I64, gaps)))
             }
         }
@@ -128,10 +135,12 @@ impl<'p> Translator<'_, 'p> {
 
     fn look_up(&mut self, item: &'p Item, ring: &'p Ring, forward: bool) -> Translated<Val> {
         let x = self.sought(item)?;
-        let v = self.ring_owner(ring)?;
-        let old = ring.is_old() && !self.mutated(Mutation::OldRingIsNew);
-        let found = self.find(x, v, old);
-        Ok(Val::One(self.neighbour(found, forward, old)))
+        let mut source = self.source(ring)?;
+        if let Source::Of { old, .. } = &mut source {
+            *old &= !self.mutated(Mutation::OldRingIsNew);
+        }
+        let found = self.find(x, source)?;
+        Ok(Val::One(self.neighbour(found, forward)))
     }
 
     fn short_circuit(&mut self, a: &'p Expr, b: &'p Expr, decides: bool) -> Translated<Val> {

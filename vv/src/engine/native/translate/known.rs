@@ -2,7 +2,7 @@
 
 use std::collections::hash_map::Entry;
 
-use cranelift_codegen::ir::Value;
+use cranelift_codegen::ir::{MemFlagsData, Value};
 use rustc_hash::FxHashMap;
 
 /// Where a ring lies.
@@ -12,6 +12,8 @@ pub(super) struct Bounds {
     pub(super) start: Value,
     /// Number of slots, i32.
     pub(super) len: Value,
+    /// The kind of memory.
+    pub(super) flags: MemFlagsData,
 }
 
 /// Where something stands in a ring.
@@ -24,6 +26,8 @@ pub(super) struct Found {
     pub(super) at: Value,
     /// Whether it is there; `None` if that is certain.
     pub(super) found: Option<Value>,
+    /// The kind of memory.
+    pub(super) flags: MemFlagsData,
 }
 
 /// What a fact is about.
@@ -41,6 +45,12 @@ pub(super) enum Key {
         v: Value,
         old: bool,
     },
+    /// Where a face, which begins at `start`, has this side.
+    Side {
+        p: Value,
+        q: Value,
+        start: Value,
+    },
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +58,8 @@ pub(super) enum Fact {
     Holds,
     Bounds(Bounds),
     Found(Found),
+    /// An address.
+    At(Value),
 }
 
 #[derive(Default)]

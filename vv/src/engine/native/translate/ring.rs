@@ -5,25 +5,43 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, Value, types};
 
 use super::known::{Bounds, Fact, Found, Key};
-use super::{Symbol, Translated, Translator, no_rings};
+use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::ir::{Expr, Item, Ring};
+use crate::ir::{Expr, Item, LocalId, Ring};
 
 /// Rings up to these lengths are searched and edited in line, four slots at a time. A refinement that doubles valences
 /// before it halves them again meets the second.
 pub(super) const WIDTHS: [i64; 2] = [8, 16];
 
+/// A ring whose owner is computed.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Source {
+    Of { v: Value, old: bool },
+    Variable(LocalId),
+}
+
 impl<'p> Translator<'_, 'p> {
-    /// The vertex whose ring is meant: not null, and with an old value if that is meant.
-    pub(super) fn ring_owner(&mut self, ring: &'p Ring) -> Translated<Value> {
-        let Ring::Of { vertex, old } = ring else { return Err(no_rings()) };
-        let v = self.vertex(vertex)?;
-        self.not_null(v);
-        if *old {
-            self.held(v);
+    /// The vertex whose ring is meant, not null and with an old value if that is meant, or the variable.
+    pub(super) fn source(&mut self, ring: &'p Ring) -> Translated<Source> {
+        Ok(match ring {
+            Ring::Of { vertex, old } => {
+                let v = self.vertex_not_null(vertex)?;
+                if *old {
+                    self.held(v);
+                }
+                Source::Of { v, old: *old }
+            }
+            Ring::Variable { local, .. } => Source::Variable(*local),
+        })
+    }
+
+    /// Where a ring lies.
+    pub(super) fn bounds_of(&mut self, source: Source) -> Translated<Bounds> {
+        match source {
+            Source::Of { v, old } => Ok(self.bounds(v, old)),
+            Source::Variable(local) => self.list_bounds(local),
         }
-        Ok(v)
     }
 
     /// What is looked for: `None` for the gap.
@@ -103,7 +121,7 @@ impl<'p> Translator<'_, 'p> {
         let offset = self.b.ins().load(types::I32, flags, head, context::HEAD_OFFSET);
         let len = self.b.ins().load(types::I32, flags, head, context::HEAD_LEN);
         let start = self.slot_address(offset, old);
-        let bounds = Bounds { start, len };
+        let bounds = Bounds { start, len, flags: if old { self.regions.old } else { self.regions.slots } };
         self.known.learn(Key::Bounds { v, old }, Fact::Bounds(bounds));
         bounds
     }
@@ -121,21 +139,15 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().ishl_imm_u(wide, 2)
     }
 
-    pub(super) fn load_slot(&mut self, start: Value, offset: Value, old: bool) -> Value {
-        let flags = if old { self.regions.old } else { self.regions.slots };
+    pub(super) fn load_slot(&mut self, start: Value, offset: Value, flags: MemFlagsData) -> Value {
         let address = self.b.ins().iadd(start, offset);
         self.b.ins().load(types::I32, flags, address, 0)
     }
 
-    /// Slots from an address on, which the arena does not align.
-    pub(super) fn lanes(&mut self, start: Value, width: i64, old: bool) -> Vec<Value> {
-        let flags = self.unaligned(old);
+    /// Slots from an address on, which nothing aligns.
+    pub(super) fn lanes(&mut self, start: Value, width: i64, flags: MemFlagsData) -> Vec<Value> {
+        let flags = unaligned(flags);
         (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32)).collect()
-    }
-
-    pub(super) fn unaligned(&self, old: bool) -> MemFlagsData {
-        let flags = if old { self.regions.old } else { self.regions.slots };
-        MemFlagsData::new().with_notrap().with_alias_region(flags.alias_region())
     }
 
     /// A bit for each of the first `len` lanes that holds `x`.
@@ -174,19 +186,20 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Searches a ring; `None` looks for the gap.
-    pub(super) fn find(&mut self, x: Option<Value>, v: Value, old: bool) -> Found {
-        if let Some(x) = x
+    pub(super) fn find(&mut self, x: Option<Value>, source: Source) -> Translated<Found> {
+        if let (Some(x), Source::Of { v, old }) = (x, source)
             && let Some(Fact::Found(found)) = self.known.get(Key::Find { x, v, old })
         {
-            return found;
+            return Ok(found);
         }
-        let Bounds { start, len } = self.bounds(v, old);
+        let bounds = self.bounds_of(source)?;
+        let Bounds { start, len, flags } = bounds;
         let (done, results) = self.block_with(&[types::I32]);
         let slow = self.b.create_block();
         self.b.set_cold_block(slow);
         if let Some(x) = x {
             self.by_width(len, 0, slow, |t, width| {
-                let lanes = t.lanes(start, width, old);
+                let lanes = t.lanes(start, width, flags);
                 let bits = t.matches(&lanes, x, len);
                 let index = t.b.ins().ctz(bits);
                 let none = t.b.ins().iconst(types::I32, -1);
@@ -198,9 +211,14 @@ impl<'p> Translator<'_, 'p> {
         }
         self.continue_in(slow);
         let sought = self.or_null(x);
-        let of_old = self.int32(u32::from(old));
-        let index = self.call(Symbol::Find, &[sought, v, of_old]).unwrap_or(sought);
-        self.jump_with(done, &[index]);
+        let index = match source {
+            Source::Of { v, old } => {
+                let of_old = self.int32(u32::from(old));
+                self.call(Symbol::Find, &[sought, v, of_old])
+            }
+            Source::Variable(_) => self.call(Symbol::ListFind, &[start, len, sought]),
+        };
+        self.jump_with(done, &[index.unwrap_or(sought)]);
         self.continue_in(done);
         let index = results[0];
         let found = self.b.ins().icmp_imm_s(IntCC::SignedGreaterThanOrEqual, index, 0);
@@ -208,15 +226,15 @@ impl<'p> Translator<'_, 'p> {
         let index = self.b.ins().select(found, index, zero);
         let at = self.bytes_of(index);
         let bytes = self.bytes_of(len);
-        let found = Found { start, bytes, at, found: Some(found) };
-        if let Some(x) = x {
+        let found = Found { start, bytes, at, found: Some(found), flags };
+        if let (Some(x), Source::Of { v, old }) = (x, source) {
             self.known.learn(Key::Find { x, v, old }, Fact::Found(found));
         }
-        found
+        Ok(found)
     }
 
     /// What follows or precedes; null if it is not there.
-    pub(super) fn neighbour(&mut self, found: Found, forward: bool, old: bool) -> Value {
+    pub(super) fn neighbour(&mut self, found: Found, forward: bool) -> Value {
         let zero = self.b.ins().iconst(types::I64, 0);
         let forward = forward != self.mutated(Mutation::NextIsPrevious);
         let offset = if forward {
@@ -228,10 +246,10 @@ impl<'p> Translator<'_, 'p> {
             self.b.ins().iadd_imm_s(from, -4)
         };
         match found.found {
-            None => self.load_slot(found.start, offset, old),
+            None => self.load_slot(found.start, offset, found.flags),
             Some(is) => {
                 let offset = self.b.ins().select(is, offset, zero);
-                let y = self.load_slot(found.start, offset, old);
+                let y = self.load_slot(found.start, offset, found.flags);
                 let null = self.int32(0);
                 self.b.ins().select(is, y, null)
             }
@@ -239,27 +257,26 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// The start of a ring, null if it is empty.
-    pub(super) fn any(&mut self, v: Value, old: bool) -> Value {
-        let Bounds { start, len } = self.bounds(v, old);
+    pub(super) fn any(&mut self, Bounds { start, len, flags }: Bounds) -> Value {
         let mut place = self.b.ins().iconst(types::I64, 0);
         if self.mutated(Mutation::AnyIsLast) {
             let bytes = self.bytes_of(len);
             let last = self.b.ins().iadd_imm_s(bytes, -4);
             place = self.b.ins().select(len, last, place);
         }
-        let first = self.load_slot(start, place, old);
+        let first = self.load_slot(start, place, flags);
         let null = self.int32(0);
         self.b.ins().select(len, first, null)
     }
 
     /// Whether a ring ends in a gap, that is, has one.
     pub(super) fn has_gap(&mut self, v: Value, old: bool) -> Value {
-        let Bounds { start, len } = self.bounds(v, old);
+        let Bounds { start, len, flags } = self.bounds(v, old);
         let zero = self.b.ins().iconst(types::I64, 0);
         let bytes = self.bytes_of(len);
         let last = self.b.ins().iadd_imm_s(bytes, -4);
         let last = self.b.ins().select(len, last, zero);
-        let last = self.load_slot(start, last, old);
+        let last = self.load_slot(start, last, flags);
         let gap = self.b.ins().icmp_imm_s(IntCC::Equal, last, 0);
         let some = self.b.ins().icmp_imm_s(IntCC::NotEqual, len, 0);
         self.b.ins().band(gap, some)
@@ -283,4 +300,9 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(done);
         results[0]
     }
+}
+
+/// A kind of memory, for loads and stores of more than one slot.
+pub(super) fn unaligned(flags: MemFlagsData) -> MemFlagsData {
+    MemFlagsData::new().with_notrap().with_alias_region(flags.alias_region())
 }

@@ -3,7 +3,7 @@
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, types};
 
-use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, no_rings, wrong_type};
+use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context::{self, status};
 use crate::engine::native::effects::{Node, each_in};
@@ -52,13 +52,12 @@ impl<'p> Translator<'_, 'p> {
             StmtKind::ForallSet { local, set, body } => {
                 self.for_set(*local, set, body)?;
             }
-            StmtKind::ForallRing { local, follower: None, ring, from: None, body } => {
-                self.for_ring(*local, ring, body)?;
+            StmtKind::ForallRing { local, follower, ring, from, body } => {
+                self.for_ring(*local, *follower, ring, from.as_ref(), body)?;
             }
-            StmtKind::ForallRing { .. }
-            | StmtKind::ForallFaces { .. }
-            | StmtKind::MakeRing { .. }
-            | StmtKind::Append { .. } => return Err(no_rings()),
+            StmtKind::ForallFaces { local, set, body } => self.for_faces(*local, set, body)?,
+            StmtKind::MakeRing { ring, of } => self.make_ring(*ring, of)?,
+            StmtKind::Append { vertex, ring } => self.append(vertex, *ring)?,
             StmtKind::Break => {
                 let Loop { exit, next, .. } = self.innermost()?;
                 let to = if self.mutated(Mutation::BreakIsContinue) { next } else { exit };
@@ -132,7 +131,7 @@ impl<'p> Translator<'_, 'p> {
                 };
                 self.define_local(local, value)?;
             }
-            Type::Ring => return Err(no_rings()),
+            Type::Ring => self.declare_list(local, init)?,
             Type::Void => {}
         }
         Ok(())
@@ -176,6 +175,10 @@ impl<'p> Translator<'_, 'p> {
                 self.drop_sets(mark);
                 Val::Void
             }
+            Some(e) if e.ty == Type::Ring => {
+                self.return_list(e)?;
+                Val::Void
+            }
             Some(e) if self.mutated(Mutation::ReturnsEarlier) => {
                 let Type::Value(ty) = e.ty else { return Err(wrong_type()) };
                 self.constant(mesh::Value::zero(ty))?
@@ -185,9 +188,13 @@ impl<'p> Translator<'_, 'p> {
         };
         let walks: Vec<Walk> = self.frame()?.loops.iter().map(|l| l.walk).collect();
         let sets = walks.iter().find_map(|w| if let Walk::Set(depth) = w { Some(*depth) } else { None });
+        let faces = walks.iter().find_map(|w| if let Walk::Faces(depth) = w { Some(*depth) } else { None });
         let rings = walks.iter().find_map(|w| if let Walk::Ring(count) = w { Some(*count) } else { None });
         if let Some(depth) = sets {
             self.call(Symbol::SetWalkEnd, &[depth]);
+        }
+        if let Some(depth) = faces {
+            self.call(Symbol::FacesEnd, &[depth]);
         }
         if let Some(count) = rings {
             self.store_context(count, context::WALK_COUNT);
@@ -227,6 +234,7 @@ impl<'p> Translator<'_, 'p> {
                     self.call_or_fail(Symbol::PrintSet, &[set]);
                     self.drop_sets(mark);
                 }
+                PrintItem::Value(e) if e.ty == Type::Ring => self.print_list(e)?,
                 PrintItem::Value(e) => {
                     let Type::Value(ty) = e.ty else { return Err(wrong_type()) };
                     let value = self.expression(e)?;

@@ -39,7 +39,7 @@ impl<'p> Translator<'_, 'p> {
 
     pub(super) fn allocate(&mut self, ty: mesh::Type, keeping: Keeping) -> Storage {
         match keeping {
-            Keeping::Fixed => Storage::None,
+            Keeping::Fixed | Keeping::Face => Storage::None,
             Keeping::Variable => {
                 let types = clif_types(ty);
                 let mut variables = [Variable::from_u32(0); 3];
@@ -74,7 +74,7 @@ impl<'p> Translator<'_, 'p> {
                 let _ = ty;
                 storage
             }
-            Storage::Set(_) => storage,
+            Storage::Set(_) | Storage::List(_) | Storage::Face(_) => storage,
         }
     }
 
@@ -103,7 +103,9 @@ impl<'p> Translator<'_, 'p> {
                 let flags = self.regions.locals;
                 self.load_value(ty, flags, address, 0)
             }
-            Storage::None | Storage::Set(_) => return Err(Refused("a variable is used before it is declared".into())),
+            Storage::None | Storage::Set(_) | Storage::List(_) | Storage::Face(_) => {
+                return Err(Refused("a variable is used before it is declared".into()));
+            }
         })
     }
 

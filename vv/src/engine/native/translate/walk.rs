@@ -1,16 +1,31 @@
 //! Loops.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, InstBuilder, StackSlotData, StackSlotKind, Value, types};
+use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Value, types};
 
 use super::known::{Bounds, Fact, Found, Key};
-use super::ring::WIDTHS;
-use super::{Loop, Symbol, Translated, Translator, Val, Walk, wrong_type};
+use super::ring::{Source, WIDTHS};
+use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
 use crate::engine::native::effects::{Effects, Node, each_in};
-use crate::ir::{Expr, ExprKind, LocalId, Ring, Stmt};
+use crate::ir::{Expr, ExprKind, From, LocalId, Ring, Stmt};
 use crate::source::Span;
+
+/// What a loop goes through: vertices from `first` to `end`, addresses.
+struct Rounds {
+    local: LocalId,
+    /// For what follows `local`.
+    follower: Option<LocalId>,
+    first: Value,
+    end: Value,
+    /// Where it begins and, once round, ends, if not at `first`.
+    begin: Option<Value>,
+    flags: MemFlagsData,
+    /// Whether there may be gaps.
+    gaps: bool,
+    span: Span,
+}
 
 impl<'p> Translator<'_, 'p> {
     pub(super) fn repeat(
@@ -102,108 +117,164 @@ impl<'p> Translator<'_, 'p> {
         self.forget(self.unit.facts.effects_of(body, &[], None));
         let exit = self.b.create_block();
         let flags = self.regions.members;
-        self.walk(local, first, end, span, Walk::Set(depth), exit, body, |t, at| {
-            t.b.ins().load(types::I32, flags, at, 0)
-        })?;
+        let rounds = Rounds { local, follower: None, first, end, begin: None, flags, gaps: true, span };
+        self.walk(&rounds, Walk::Set(depth), exit, body, |_, _| {})?;
         self.continue_in(exit);
         self.call(Symbol::SetWalkEnd, &[depth]);
         Ok(())
     }
 
-    pub(super) fn for_ring(&mut self, local: LocalId, ring: &'p Ring, body: &'p [Stmt]) -> Translated<()> {
+    pub(super) fn for_ring(
+        &mut self,
+        local: LocalId,
+        follower: Option<LocalId>,
+        ring: &'p Ring,
+        from: Option<&'p From>,
+        body: &'p [Stmt],
+    ) -> Translated<()> {
         let span = ring.span();
-        let v = self.ring_owner(ring)?;
+        let source = self.source(ring)?;
+        let corner = match from {
+            Some(from) => Some(self.corner(from)?),
+            None => None,
+        };
+        let mut bounds = self.bounds_of(source)?;
+        let begin = match corner {
+            Some((p, q)) => Some(self.place_of(p, q, bounds)?),
+            None => None,
+        };
         let effects = self.unit.facts.effects_of(body, &[], None);
-        let moves = if ring.is_old() { effects.synchronizes } else { effects.edits };
+        let (moves, gaps) = match source {
+            Source::Of { old: true, .. } => (effects.synchronizes, true),
+            Source::Of { old: false, .. } => (effects.edits, true),
+            Source::Variable(local) => {
+                let face = matches!(self.storage(local)?, Storage::Face(_));
+                (effects.lists && !face, false)
+            }
+        };
         let exit = self.b.create_block();
-        if moves {
-            let count = self.load_context(types::I64, context::WALK_COUNT);
-            let [first, end] = self.copy_ring(v, ring.is_old());
-            self.forget(effects);
-            let flags = self.regions.locals;
-            self.walk(local, first, end, span, Walk::Ring(count), exit, body, |t, at| {
-                t.b.ins().load(types::I32, flags, at, 0)
-            })?;
-            self.continue_in(exit);
-            self.store_context(count, context::WALK_COUNT);
-            return Ok(());
-        }
-        let bounds = self.bounds(v, ring.is_old());
         let bytes = self.bytes_of(bounds.len);
-        let end = self.b.ins().iadd(bounds.start, bytes);
+        let (walk, begin) = if moves {
+            let count = self.load_context(types::I64, context::WALK_COUNT);
+            let start = bounds.start;
+            bounds = self.copy_ring(bounds);
+            let begin = begin.map(|begin| {
+                let at = self.b.ins().isub(begin, start);
+                self.b.ins().iadd(bounds.start, at)
+            });
+            (Walk::Ring(count), begin)
+        } else {
+            (Walk::Nothing, begin)
+        };
+        let Bounds { start: first, flags, .. } = bounds;
+        let end = self.b.ins().iadd(first, bytes);
         self.forget(effects);
-        let flags = if ring.is_old() { self.regions.old } else { self.regions.slots };
-        let old = ring.is_old();
-        self.walk(local, bounds.start, end, span, Walk::Nothing, exit, body, |t, at| {
-            let q = t.b.ins().load(types::I32, flags, at, 0);
-            let at = t.b.ins().isub(at, bounds.start);
-            let found = Found { start: bounds.start, bytes, at, found: None };
-            t.known.learn(Key::Find { x: q, v, old }, Fact::Found(found));
-            q
+        let rounds = Rounds { local, follower, first, end, begin, flags, gaps, span };
+        self.walk(&rounds, walk, exit, body, |t, sides| match source {
+            Source::Of { v, old } if !moves => {
+                for &(x, at) in sides {
+                    let at = t.b.ins().isub(at, first);
+                    let found = Found { start: first, bytes, at, found: None, flags };
+                    t.known.learn(Key::Find { x, v, old }, Fact::Found(found));
+                }
+            }
+            // A side of a face is a slot of its vertex' ring, in which its end stands once.
+            Source::Variable(_) if !moves => {
+                if let &[(p, at), (q, _)] = sides {
+                    t.known.learn(Key::Side { p, q, start: first }, Fact::At(at));
+                }
+            }
+            _ => {}
         })?;
         self.continue_in(exit);
+        if let Walk::Ring(count) = walk {
+            self.store_context(count, context::WALK_COUNT);
+        }
         Ok(())
     }
 
-    /// Copies a ring to where no edit reaches it: into the function's frame if it is short. From where to where it lies.
-    fn copy_ring(&mut self, v: Value, old: bool) -> [Value; 2] {
-        let Bounds { start, len } = self.bounds(v, old);
+    /// Where a loop begins: at a vertex, perhaps where another follows.
+    fn corner(&mut self, from: &'p From) -> Translated<(Value, Option<Value>)> {
+        let p = self.vertex_not_null(&from.corner)?;
+        let q = match &from.next {
+            Some(q) => Some(self.vertex_not_null(q)?),
+            None => None,
+        };
+        Ok((p, q))
+    }
+
+    /// Address of the first place in a ring where `p` stands, and where `q` follows it, or fails.
+    fn place_of(&mut self, p: Value, q: Option<Value>, Bounds { start, len, .. }: Bounds) -> Translated<Value> {
+        if self.mutated(Mutation::BeginsAtTheStart) {
+            return Ok(start);
+        }
+        if let Some(q) = q
+            && let Some(Fact::At(at)) = self.known.get(Key::Side { p, q, start })
+        {
+            return Ok(at);
+        }
+        let next = self.or_null(q);
+        let index = self.call(Symbol::ListBegin, &[start, len, p, next]).ok_or_else(wrong_type)?;
+        let none = self.b.ins().icmp_imm_s(IntCC::SignedLessThan, index, 0);
+        self.fail_if(none);
+        let at = self.bytes_of(index);
+        Ok(self.b.ins().iadd(start, at))
+    }
+
+    /// Copies a ring to where no edit reaches it: into the function's frame if it is short.
+    fn copy_ring(&mut self, Bounds { start, len, flags }: Bounds) -> Bounds {
         let longest = WIDTHS[WIDTHS.len() - 1] as u32;
         let frame = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * longest, 4));
         let copy = self.b.ins().stack_addr(types::I64, frame, 0);
-        let (ready, bounds) = self.block_with(&[types::I64; 2]);
+        let (ready, address) = self.block_with(&[types::I64]);
         let slow = self.b.create_block();
         self.b.set_cold_block(slow);
-        let bytes = self.bytes_of(len);
-        let end = self.b.ins().iadd(copy, bytes);
         self.by_width(len, 0, slow, |t, width| {
-            let flags = t.regions.locals;
-            for (k, lane) in t.lanes(start, width, old).into_iter().enumerate() {
-                t.b.ins().store(flags, lane, copy, 16 * k as i32);
+            let locals = t.regions.locals;
+            for (k, lane) in t.lanes(start, width, flags).into_iter().enumerate() {
+                t.b.ins().store(locals, lane, copy, 16 * k as i32);
             }
-            t.jump_with(ready, &[copy, end]);
+            t.jump_with(ready, &[copy]);
         });
         self.continue_in(slow);
-        let of_old = self.int32(u32::from(old));
-        self.call_or_fail(Symbol::Walk, &[v, of_old]);
-        let [first, end] = [0, 8].map(|k| self.load_context(types::I64, context::VALUE + k));
-        self.jump_with(ready, &[first, end]);
+        self.call_or_fail(Symbol::Walk, &[start, len]);
+        let address_of_long = self.load_context(types::I64, context::VALUE);
+        self.jump_with(ready, &[address_of_long]);
         self.continue_in(ready);
-        [bounds[0], bounds[1]]
+        Bounds { start: address[0], len, flags: self.regions.locals }
     }
 
-    /// Walks from `first` to `end`, addresses of vertices or gaps. `load` gives the vertex.
-    #[expect(clippy::too_many_arguments, reason = "the one loop of all walks")]
-    fn walk(
-        &mut self,
-        local: LocalId,
-        first: Value,
-        end: Value,
-        span: Span,
-        walk: Walk,
-        exit: Block,
-        body: &'p [Stmt],
-        load: impl FnOnce(&mut Self, Value) -> Value,
-    ) -> Translated<()> {
-        let (round, at) = self.block_with(&[types::I64]);
-        let at = at[0];
-        let next = self.b.create_block();
-        let empty = self.b.ins().icmp(IntCC::Equal, first, end);
-        self.b.ins().brif(empty, exit, &[], round, &[first.into()]);
+    pub(super) fn for_faces(&mut self, local: LocalId, set: &'p Expr, body: &'p [Stmt]) -> Translated<()> {
+        let (index, mark) = self.set(set)?;
+        let depth = self.call(Symbol::Faces, &[index]).ok_or_else(wrong_type)?;
+        let none = self.b.ins().icmp_imm_s(IntCC::Equal, depth, -1);
+        self.fail_if(none);
+        let [corners, ends, last] = [0, 8, 16].map(|k| self.load_context(types::I64, context::VALUE + k));
+        self.drop_sets(mark);
+        self.forget(self.unit.facts.effects_of(body, &[], None));
+        let zero = self.int32(0);
+        let (round, at) = self.block_with(&[types::I64, types::I32]);
+        let (at, begin) = (at[0], at[1]);
+        let [next, exit] = [(); 2].map(|()| self.b.create_block());
+        let empty = self.b.ins().icmp(IntCC::Equal, ends, last);
+        self.b.ins().brif(empty, exit, &[], round, &[ends.into(), zero.into()]);
         self.b.switch_to_block(round);
         self.known.enter();
-        let v = load(self, at);
-        let hole = self.b.ins().icmp_imm_s(IntCC::Equal, v, 0);
-        self.leave_if(hole, next);
-        if self.mutated(Mutation::LoopsSkipTheSecond) {
-            let second = self.b.ins().iadd_imm_s(first, 4);
+        let flags = self.regions.listed;
+        let end = self.b.ins().load(types::I32, flags, at, 0);
+        if self.mutated(Mutation::ForgetsTheSecondFace) {
+            let second = self.b.ins().iadd_imm_s(ends, 4);
             let skip = self.b.ins().icmp(IntCC::Equal, at, second);
             self.leave_if(skip, next);
         }
-        self.known.learn(Key::NotNull(v), Fact::Holds);
-        self.poll(span);
-        self.define_local(local, Val::One(v))?;
-        self.frame_mut()?.loops.push(Loop { next, exit, walk });
+        self.poll(set.span);
+        let bytes = self.bytes_of(begin);
+        let start = self.b.ins().iadd(corners, bytes);
+        let len = self.b.ins().isub(end, begin);
+        if let Some(storage) = self.frame_mut()?.storage.get_mut(local.0 as usize) {
+            *storage = Storage::Face(Bounds { start, len, flags });
+        }
+        self.frame_mut()?.loops.push(Loop { next, exit, walk: Walk::Faces(depth) });
         let goes_on = self.block(body)?;
         self.frame_mut()?.loops.pop();
         if goes_on {
@@ -212,10 +283,86 @@ impl<'p> Translator<'_, 'p> {
         self.known.leave();
         self.continue_in(next);
         let after = self.b.ins().iadd_imm_s(at, 4);
-        let last = self.b.ins().icmp(IntCC::Equal, after, end);
-        self.b.ins().brif(last, exit, &[], round, &[after.into()]);
+        let done = self.b.ins().icmp(IntCC::Equal, after, last);
+        self.b.ins().brif(done, exit, &[], round, &[after.into(), end.into()]);
+        self.b.seal_block(round);
+        self.continue_in(exit);
+        self.call(Symbol::FacesEnd, &[depth]);
+        Ok(())
+    }
+
+    /// Goes through vertices. `learn` is told each with its address, and the follower with its own.
+    fn walk(
+        &mut self,
+        rounds: &Rounds,
+        walk: Walk,
+        exit: Block,
+        body: &'p [Stmt],
+        learn: impl FnOnce(&mut Self, &[(Value, Value)]),
+    ) -> Translated<()> {
+        let &Rounds { local, follower, first, end, begin, flags, gaps, span } = rounds;
+        let begin_at = begin.unwrap_or(first);
+        let (round, at) = self.block_with(&[types::I64]);
+        let at = at[0];
+        let next = self.b.create_block();
+        let empty = self.b.ins().icmp(IntCC::Equal, first, end);
+        self.b.ins().brif(empty, exit, &[], round, &[begin_at.into()]);
+        self.b.switch_to_block(round);
+        self.known.enter();
+        let v = self.walked_vertex(at, flags, gaps, next);
+        let mut sides = vec![(v, at)];
+        if follower.is_some() {
+            let mut after = self.after(at, first, end);
+            if self.mutated(Mutation::FollowsItself) {
+                after = at;
+            }
+            let q = self.walked_vertex(after, flags, gaps, next);
+            sides.push((q, after));
+        }
+        if self.mutated(Mutation::LoopsSkipTheSecond) {
+            let second = self.b.ins().iadd_imm_s(first, 4);
+            let skip = self.b.ins().icmp(IntCC::Equal, at, second);
+            self.leave_if(skip, next);
+        }
+        learn(self, &sides);
+        self.poll(span);
+        for (local, &(x, _)) in std::iter::once(local).chain(follower).zip(&sides) {
+            self.define_local(local, Val::One(x))?;
+        }
+        self.frame_mut()?.loops.push(Loop { next, exit, walk });
+        let goes_on = self.block(body)?;
+        self.frame_mut()?.loops.pop();
+        if goes_on {
+            self.b.ins().jump(next, &[]);
+        }
+        self.known.leave();
+        self.continue_in(next);
+        let (after, last) = match begin {
+            Some(begin) => (self.after(at, first, end), begin),
+            None => (self.b.ins().iadd_imm_s(at, 4), end),
+        };
+        let done = self.b.ins().icmp(IntCC::Equal, after, last);
+        self.b.ins().brif(done, exit, &[], round, &[after.into()]);
         self.b.seal_block(round);
         Ok(())
+    }
+
+    /// The vertex at an address, which is not null; a gap goes on to `next`.
+    fn walked_vertex(&mut self, at: Value, flags: MemFlagsData, gaps: bool, next: Block) -> Value {
+        let v = self.b.ins().load(types::I32, flags, at, 0);
+        if gaps {
+            let hole = self.b.ins().icmp_imm_s(IntCC::Equal, v, 0);
+            self.leave_if(hole, next);
+        }
+        self.known.learn(Key::NotNull(v), Fact::Holds);
+        v
+    }
+
+    /// The address after another, once round.
+    fn after(&mut self, at: Value, first: Value, end: Value) -> Value {
+        let after = self.b.ins().iadd_imm_s(at, 4);
+        let last = self.b.ins().icmp(IntCC::Equal, after, end);
+        self.b.ins().select(last, first, after)
     }
 
     /// What a loop does is forgotten before it begins, for it holds for its second round.
