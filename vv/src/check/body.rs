@@ -148,7 +148,7 @@ impl<'a> Checker<'a> {
         }
         let reported = self.diagnostics.len();
         let mut statements = Vec::new();
-        let falls_through = self.statements(&body.statements, &mut statements);
+        let falls_through = body.is_some_and(|body| self.statements(&body.statements, &mut statements));
         if falls_through && returns != Type::Void {
             self.missing_return(id);
         }
@@ -165,7 +165,7 @@ impl<'a> Checker<'a> {
 
     fn missing_return(&mut self, id: FunctionId) {
         let Some(s) = self.signatures.get(id.0 as usize) else { return };
-        let (name, returned, span, at) = (s.name, s.return_span, s.span, s.body.span);
+        let (name, returned, span, at) = (s.name, s.return_span, s.span, s.body.and_then(|b| b.span));
         let end = at.map_or(span, |b| Span { start: b.end.saturating_sub(1).max(b.start), ..b });
         let returned_type = a(s.returns);
         self.report(

@@ -18,7 +18,8 @@ pub(super) struct Signature<'a> {
     pub(super) returns: Type,
     pub(super) return_span: Span,
     pub(super) parameters: Vec<Parameter<'a>>,
-    pub(super) body: &'a Block,
+    /// `None` where there is only a declaration; that was reported.
+    pub(super) body: Option<&'a Block>,
 }
 
 pub(super) struct Parameter<'a> {
@@ -32,6 +33,12 @@ pub(super) struct Parameter<'a> {
 }
 
 impl Signature<'_> {
+    /// Whether calls cannot tell one from the other.
+    fn promises(&self, other: &Self) -> bool {
+        let passed = |s: &Self| s.parameters.iter().map(|p| (p.ty, p.passing)).collect::<Vec<_>>();
+        self.returns == other.returns && passed(self) == passed(other)
+    }
+
     fn is_step(&self) -> bool {
         let [parameter] = &self.parameters[..] else { return false };
         self.returns == Type::Void && parameter.ty == Some(Type::Mesh) && parameter.passing == Passing::Reference
@@ -41,10 +48,18 @@ impl Signature<'_> {
 impl<'a> Checker<'a> {
     /// Learns the names of file scope and the signatures of all functions.
     pub(super) fn declare_functions(&mut self, files: &'a [(FileId, Ast)]) {
+        let mut declared = Vec::new();
         for (file, ast) in files {
             for item in &ast.items {
                 match item {
-                    Item::Function(f) => self.declare_function(*file, f),
+                    Item::Function(f) => {
+                        let signature = self.signature(f);
+                        if f.body.is_some() {
+                            self.add_function(*file, signature, f.is_static);
+                        } else {
+                            declared.push((f.span, signature));
+                        }
+                    }
                     Item::Phase { name, body } => {
                         let s = Parameter {
                             name: "S",
@@ -60,7 +75,7 @@ impl<'a> Checker<'a> {
                             returns: Type::Void,
                             return_span: name.span,
                             parameters: vec![s],
-                            body,
+                            body: Some(body),
                         };
                         self.add_function(*file, signature, false);
                     }
@@ -74,13 +89,50 @@ impl<'a> Checker<'a> {
                 }
             }
         }
+        for (span, signature) in declared {
+            self.keep_promise(span, signature, files);
+        }
+    }
+
+    /// A function that is declared somewhere must be defined somewhere, as it is declared.
+    fn keep_promise(&mut self, span: Span, promised: Signature<'a>, files: &'a [(FileId, Ast)]) {
+        let name = promised.name;
+        let form = self.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
+        let Some(found) = self.function_names.get(name).and_then(|f| self.signatures.get(f.0 as usize)) else {
+            let asked = files.iter().find(|(file, _)| *file == FileId::MAIN).and_then(|(_, ast)| {
+                let path = &self.sources.file(span.file)?.name;
+                ast.items.iter().find_map(|item| match item {
+                    Item::Include { path: included, span } if path.ends_with(included.as_str()) => {
+                        Some((included, *span))
+                    }
+                    _ => None,
+                })
+            });
+            let error = match asked {
+                Some((file, at)) if span.file != FileId::MAIN => {
+                    let error = Diagnostic::error(at, format!("`{file}` needs a function `{name}`, and there is none"));
+                    error.label(span, "asked for here")
+                }
+                _ => Diagnostic::error(span, format!("`{name}` is declared, but nowhere defined")),
+            };
+            self.report(error.hint(format!("write `{form} {{ … }}`")));
+            // Calls shall find it all the same.
+            self.function_names.insert(name, FunctionId(self.signatures.len() as u32));
+            self.signatures.push(promised);
+            return;
+        };
+        if found.promises(&promised) {
+            return;
+        }
+        let error = Diagnostic::error(found.span, format!("`{name}` is declared otherwise: `{form}`"));
+        self.report(error.label(span, "declared here"));
     }
 
     fn announce_global(&mut self, name: &'a str, span: Span) {
         self.global_names.entry(name).or_insert(GlobalName { span, id: None, declared: false });
     }
 
-    fn declare_function(&mut self, file: FileId, f: &'a Function) {
+    fn signature(&mut self, f: &'a Function) -> Signature<'a> {
         let parameters = f
             .parameters
             .iter()
@@ -101,15 +153,14 @@ impl<'a> Checker<'a> {
                 }
             })
             .collect();
-        let signature = Signature {
+        Signature {
             name: &f.name.text,
             span: f.name.span,
             returns: type_of(f.return_type.kind),
             return_span: f.return_type.span,
             parameters,
-            body: &f.body,
-        };
-        self.add_function(file, signature, f.is_static);
+            body: f.body.as_ref(),
+        }
     }
 
     fn add_function(&mut self, file: FileId, signature: Signature<'a>, is_static: bool) {

@@ -65,7 +65,9 @@ impl<'t> Outline<'t> {
                 Item::Param(param) => self.item(param.span.start),
                 Item::Function(function) => {
                     self.item(function.span.start);
-                    self.block(&function.body, function.span.start);
+                    if let Some(body) = &function.body {
+                        self.block(body, function.span.start);
+                    }
                 }
                 Item::Phase { name, body } => {
                     self.item(name.span.start);

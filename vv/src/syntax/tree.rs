@@ -89,7 +89,7 @@ pub enum TypeKind {
     Ring,
 }
 
-/// `[static] type name(parameters) { … }`
+/// `[static] type name(parameters) { … }`, or `;` in place of the body
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
     /// `static`: a function that is no rule.
@@ -100,8 +100,8 @@ pub struct Function {
     pub name: Name,
     /// In order.
     pub parameters: Vec<Parameter>,
-    /// Its statements.
-    pub body: Block,
+    /// Its statements; `None` where it is only declared, for the program to define elsewhere.
+    pub body: Option<Block>,
     /// From the return type to the closing parenthesis.
     pub span: Span,
 }

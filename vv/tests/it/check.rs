@@ -22,10 +22,17 @@ vertex insert(vertex p, vertex q) {
 }
 ";
 
-/// Compiles a program that may include `insert.vv`.
+/// A refinement that asks the program for its rule.
+const HOST: &str = "
+vec vertex_point(vertex p);
+void refine(mesh& S) { synchronize S; forall p in S p$pos = vertex_point(p); }
+";
+
+/// Compiles a program that may include `insert.vv` and `host.vv`.
 fn compiled(text: &str) -> Compilation {
     compile("main.vv", text, &mut |_, path| match path {
         "insert.vv" => Ok(Included { name: path.to_owned(), text: INSERT.to_owned() }),
+        "host.vv" => Ok(Included { name: "<vv>/host.vv".to_owned(), text: HOST.to_owned() }),
         _ => Err(format!("there is no file `{path}`")),
     })
 }

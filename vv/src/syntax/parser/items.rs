@@ -183,15 +183,12 @@ impl Parser<'_> {
             self.mend(Diagnostic::error(here, "a function cannot be `const`").fix("leave it out", here, ""));
         }
         if self.eat(Kind::Semicolon) {
-            let whole = return_type.span.to(self.previous());
-            let error = Diagnostic::error(whole, format!("the function `{}` has no body", name.text));
-            self.mend(error.fix("leave this out: functions may stand in any order", whole, ""));
-            return None;
+            return Some(Item::Function(Function { is_static, return_type, name, parameters, body: None, span }));
         }
         if self.kind() == Kind::OpenBrace {
             self.panicking = false;
         }
-        let body = self.block(&format!("the function `{}`", name.text));
+        let body = Some(self.block(&format!("the function `{}`", name.text)));
         Some(Item::Function(Function { is_static, return_type, name, parameters, body, span }))
     }
 

@@ -742,8 +742,9 @@ fn preprocessor() {
 fn heads_of_functions() {
     check_file(
         r#"
-    void f(mesh& S);
-  //^^^^^^^^^^^^^^^^ error: the function `f` has no body | leave this out: functions may stand in any order
+    void f(mesh& S)
+    vertex d(mesh& S);
+  //^^^^^^ error: expected `{` of the function `f`, found `vertex`
     vertex& g() { }
     //    ^ error: functions return values, not references or pointers | leave it out
     float h(float x, vertex* v, int n = 3) { }

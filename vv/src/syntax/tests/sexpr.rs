@@ -27,7 +27,10 @@ fn item(item: &Item) -> String {
             let head = if f.is_static { "static fn" } else { "fn" };
             let parameters: Vec<_> = f.parameters.iter().map(parameter).collect();
             let head = format!("{head} {} {} ({})", ty(f.return_type), f.name.text, parameters.join(", "));
-            list(&head, f.body.statements.iter().map(stmt))
+            match &f.body {
+                Some(body) => list(&head, body.statements.iter().map(stmt)),
+                None => format!("(declared {head})"),
+            }
         }
         Item::Phase { name, body } => list(&name.text, body.statements.iter().map(stmt)),
         Item::Properties { element, fields, .. } => {

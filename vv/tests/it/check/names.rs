@@ -472,3 +472,35 @@ void f(mesh& S) { forall p in S insert(p, p); }
 "#,
     );
 }
+
+#[test]
+fn declared_functions_are_defined_by_the_program() {
+    check(
+        r#"
+#include "host.vv"
+void step(mesh& S) { refine(S); }
+vec vertex_point(vertex p) { return `p$pos / 2.0; }
+int later(int n);
+int later(int number);
+int later(int n) { return n > 0 ? later(n - 1) : 0; }
+"#,
+    );
+    check(
+        r#"
+#include "host.vv"
+//       ^^^^^^^^^ error: `host.vv` needs a function `vertex_point`, and there is none
+void step(mesh& S) { refine(S); forall p in S p$pos = vertex_point(p, p); }
+//                                                    ^^^^^^^^^^^^^^^^^^ error: `vertex_point` takes 1 argument, not 2
+"#,
+    );
+    check(
+        r#"
+#include "host.vv"
+void step(mesh& S) { refine(S); }
+vec vertex_point(vertex& p) { return `p$pos / 2.0; }
+//  ^^^^^^^^^^^^ error: `vertex_point` is declared otherwise: `vec vertex_point(vertex p)`
+  int later(int n);
+//^^^^^^^^^^^^^^^^ error: `later` is declared, but nowhere defined
+"#,
+    );
+}
