@@ -21,6 +21,9 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "loop-creases.vv", text: include_str!("../../assets/programs/loop-creases.vv") },
     Shipped { name: "butterfly.vv", text: include_str!("../../assets/programs/butterfly.vv") },
     Shipped { name: "sqrt3.vv", text: include_str!("../../assets/programs/sqrt3.vv") },
+    Shipped { name: "catmull-clark.vv", text: include_str!("../../assets/programs/catmull-clark.vv") },
+    Shipped { name: "doo-sabin.vv", text: include_str!("../../assets/programs/doo-sabin.vv") },
+    Shipped { name: "quad-triangle.vv", text: include_str!("../../assets/programs/quad-triangle.vv") },
     Shipped { name: "midedge.vv", text: include_str!("../../assets/programs/midedge.vv") },
     Shipped { name: "four-eight.vv", text: include_str!("../../assets/programs/four-eight.vv") },
     Shipped { name: "conway.vv", text: include_str!("../../assets/programs/conway.vv") },
@@ -30,6 +33,8 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "delaunay.vv", text: include_str!("../../assets/programs/delaunay.vv") },
     Shipped { name: "mountain.vv", text: include_str!("../../assets/programs/mountain.vv") },
     Shipped { name: "insert.vv", text: include_str!("../../assets/programs/insert.vv") },
+    Shipped { name: "pqq.vv", text: include_str!("../../assets/programs/pqq.vv") },
+    Shipped { name: "dqq.vv", text: include_str!("../../assets/programs/dqq.vv") },
 ];
 
 /// The meshes by name.

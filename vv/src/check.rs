@@ -48,7 +48,7 @@ pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)]) -> (Program, Vec<Di
     checker.declare_functions(files);
     checker.declare_globals(files);
     let functions = checker.define_functions();
-    checker.warn_of_missing_synchronize();
+    checker.look_at_calls();
     checker.warn_of_copied_mesh();
     let program = Program {
         rules: checker.rules.clone(),
@@ -81,6 +81,8 @@ struct Checker<'a> {
     diagnostics: Vec<Diagnostic>,
     signatures: Vec<Signature<'a>>,
     function_names: FxHashMap<&'a str, FunctionId>,
+    /// Functions that are only declared, with what is to be said if a step calls them.
+    undefined: Vec<(FunctionId, Diagnostic)>,
     rules: Vec<FunctionId>,
     start: Option<FunctionId>,
     globals: Vec<Global>,
@@ -126,6 +128,7 @@ impl<'a> Checker<'a> {
             diagnostics: Vec::new(),
             signatures: Vec::new(),
             function_names: FxHashMap::default(),
+            undefined: Vec::new(),
             rules: Vec::new(),
             start: None,
             globals: Vec::new(),

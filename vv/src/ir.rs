@@ -172,7 +172,8 @@ pub struct Function {
     pub parameters: Vec<Passing>,
     /// All variables, parameters first.
     pub locals: Vec<Local>,
-    /// Its statements. A function that returns a value returns on every path.
+    /// Its statements. A function that returns a value returns on every path, but for one that is only declared: it has
+    /// no statements, and no rule and no `start` leads to it.
     pub body: Vec<Stmt>,
     /// Where its name stands.
     pub span: Span,

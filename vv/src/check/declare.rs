@@ -18,7 +18,7 @@ pub(super) struct Signature<'a> {
     pub(super) returns: Type,
     pub(super) return_span: Span,
     pub(super) parameters: Vec<Parameter<'a>>,
-    /// `None` where there is only a declaration; that was reported.
+    /// `None` where there is only a declaration.
     pub(super) body: Option<&'a Block>,
 }
 
@@ -94,7 +94,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// A function that is declared somewhere must be defined somewhere, as it is declared.
+    /// A function that is declared somewhere must be defined as it is declared, and must be if a step needs it.
     fn keep_promise(&mut self, span: Span, promised: Signature<'a>, files: &'a [(FileId, Ast)]) {
         let name = promised.name;
         let form = self.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
@@ -115,9 +115,11 @@ impl<'a> Checker<'a> {
                 }
                 _ => Diagnostic::error(span, format!("`{name}` is declared, but nowhere defined")),
             };
-            self.report(error.hint(format!("write `{form} {{ … }}`")));
+            let error = error.hint(format!("write `{form} {{ … }}`"));
             // Calls shall find it all the same.
-            self.function_names.insert(name, FunctionId(self.signatures.len() as u32));
+            let id = FunctionId(self.signatures.len() as u32);
+            self.undefined.push((id, error));
+            self.function_names.insert(name, id);
             self.signatures.push(promised);
             return;
         };

@@ -1,4 +1,5 @@
-//! What calls what, and where old values are read that no `synchronize` can have made.
+//! What calls what: functions that are declared and called, but not defined, and old values that no `synchronize` can have
+//! made.
 
 use crate::diagnostic::Diagnostic;
 use crate::ir::FunctionId;
@@ -16,9 +17,8 @@ pub(super) struct Effects {
 }
 
 impl Checker<'_> {
-    /// An old value may be there if the function, one that it calls, or one that leads to it (or calls on the way)
-    /// synchronizes. Only what a step can reach is looked at: a library may be synchronized by those who include it.
-    pub(super) fn warn_of_missing_synchronize(&mut self) {
+    /// Looks at what a step can reach: a library may leave something to those who include it.
+    pub(super) fn look_at_calls(&mut self) {
         let n = self.effects.len();
         let mut callers = vec![Vec::new(); n];
         let mut callees = vec![Vec::new(); n];
@@ -31,11 +31,21 @@ impl Checker<'_> {
                 }
             }
         }
-        let itself = (0..n).filter(|&i| self.effects[i].synchronizes);
-        let synchronizing = reachable(itself, &callers);
-        let covered = reachable((0..n).filter(|&i| synchronizing[i]), &callees);
         let roots = self.rules.iter().chain(&self.start).map(|f| f.0 as usize).filter(|&i| i < n);
         let run = reachable(roots, &callees);
+        let mut undefined = std::mem::take(&mut self.undefined);
+        undefined.retain(|(id, _)| run.get(id.0 as usize).copied().unwrap_or(false));
+        self.diagnostics.extend(undefined.into_iter().map(|(_, error)| error));
+        self.warn_of_missing_synchronize(&run, &callers, &callees);
+    }
+
+    /// An old value may be there if the function, one that it calls, or one that leads to it (or calls on the way)
+    /// synchronizes.
+    fn warn_of_missing_synchronize(&mut self, run: &[bool], callers: &[Vec<usize>], callees: &[Vec<usize>]) {
+        let n = self.effects.len();
+        let itself = (0..n).filter(|&i| self.effects[i].synchronizes);
+        let synchronizing = reachable(itself, callers);
+        let covered = reachable((0..n).filter(|&i| synchronizing[i]), callees);
         let faulty: Vec<Span> =
             (0..n).filter(|&i| run[i] && !covered[i]).filter_map(|i| self.effects[i].reads_old).collect();
         for span in faulty {

@@ -501,6 +501,10 @@ vec vertex_point(vertex& p) { return `p$pos / 2.0; }
 //  ^^^^^^^^^^^^ error: `vertex_point` is declared otherwise: `vec vertex_point(vertex p)`
   int later(int n);
 //^^^^^^^^^^^^^^^^ error: `later` is declared, but nowhere defined
+int never(int n);
+static int unused(int n) { return never(n); }
+int used(int n) { return later(n); }
+start { print used(3); }
 "#,
     );
 }

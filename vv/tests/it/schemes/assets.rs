@@ -27,6 +27,7 @@ enum Class {
 /// File, rule if only that, class. Programs that make their own mesh need no row.
 const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("butterfly.vv", None, Class::Triangles),
+    ("catmull-clark.vv", None, Class::Polygons),
     ("conway.vv", Some("kis"), Class::Polygons),
     ("conway.vv", Some("gyro"), Class::Polygons),
     ("conway.vv", Some("truncate"), Class::Polygons),
@@ -34,6 +35,7 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("conway.vv", Some("expand"), Class::Polygons),
     ("conway.vv", None, Class::ClosedPolygons),
     ("delaunay.vv", None, Class::Triangles),
+    ("doo-sabin.vv", None, Class::Polygons),
     ("four-eight.vv", None, Class::Polygons),
     ("limit.vv", Some("loop_limit"), Class::Triangles),
     ("limit.vv", Some("catmull_clark_limit"), Class::Quads),
@@ -44,6 +46,7 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("paper-loop.vv", None, Class::ClosedTriangles),
     ("paper-polyhedral.vv", None, Class::Triangles),
     ("paper-sqrt3.vv", None, Class::ClosedTriangles),
+    ("quad-triangle.vv", None, Class::Polygons),
     ("smooth.vv", None, Class::Polygons),
     ("sqrt3.vv", None, Class::Triangles),
 ];

@@ -134,6 +134,60 @@ fn midedge() {
 }
 
 #[test]
+fn catmull_clark() {
+    let scheme = Scheme::new("catmull-clark.vv", "catmull_clark");
+    for (name, surface) in stars(Around::Quads, 2).chain(stars(Around::Triangles, 1)) {
+        check(&name, &scheme, &surface, &published::catmull_clark(&surface, &[]));
+    }
+    for name in ["dodecahedron.obj", "tetrapod.obj", "cube-open-quads.obj"] {
+        let surface = Surface::asset(name);
+        check(name, &scheme, &surface, &published::catmull_clark(&surface, &[]));
+    }
+}
+
+#[test]
+fn doo_sabin() {
+    for chaikin in [false, true] {
+        let scheme = Scheme::new("doo-sabin.vv", "doo_sabin").with("chaikin", Value::Bool(chaikin));
+        for (name, surface) in stars(Around::Quads, 2).chain(stars(Around::Triangles, 1)) {
+            check(&name, &scheme, &surface, &published::doo_sabin(&surface, chaikin));
+        }
+        for name in ["dodecahedron.obj", "genus-2-quads.obj", "cube-open.obj"] {
+            let surface = Surface::asset(name);
+            check(name, &scheme, &surface, &published::doo_sabin(&surface, chaikin));
+        }
+    }
+}
+
+/// Stars of quads of which each other is cut into two triangles.
+fn halves() -> impl Iterator<Item = (String, Surface)> {
+    stars(Around::Quads, 2).map(|(name, surface)| {
+        let mut faces = Vec::new();
+        for (i, face) in surface.faces.iter().enumerate() {
+            match face[..] {
+                [a, b, c, d] if i % 3 == 1 => faces.extend([vec![a, b, c], vec![a, c, d]]),
+                _ => faces.push(face.clone()),
+            }
+        }
+        (format!("{name}, some quads cut"), Surface::new(surface.points, faces))
+    })
+}
+
+#[test]
+fn quad_triangle() {
+    let scheme = Scheme::new("quad-triangle.vv", "quad_triangle");
+    for (name, surface) in stars(Around::Quads, 2).chain(stars(Around::Triangles, 2)).chain(halves()) {
+        check(&name, &scheme, &surface, &published::quad_triangle(&surface, true));
+    }
+    let plain = Scheme::new("quad-triangle.vv", "quad_triangle").with("smooth_boundary", Value::Bool(false));
+    for name in ["dodecahedron.obj", "cube-open-quads.obj", "cube-open.obj"] {
+        let surface = Surface::asset(name);
+        check(name, &scheme, &surface, &published::quad_triangle(&surface, true));
+        check(name, &plain, &surface, &published::quad_triangle(&surface, false));
+    }
+}
+
+#[test]
 fn limits() {
     let scheme = Scheme::new("limit.vv", "loop_limit");
     for (name, surface) in stars(Around::Triangles, 2) {

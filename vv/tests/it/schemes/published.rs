@@ -219,6 +219,189 @@ pub fn midedge(surface: &Surface) -> Refined {
     Refined::of(masks, faces)
 }
 
+/// Each n-gon becomes n quads: old vertices keep their numbers, those of edges and of faces follow. `edge` and `vertex`
+/// get the masks of the faces.
+fn quadrangulate(
+    surface: &Surface,
+    vertex: impl Fn(usize, &[Vec<f64>]) -> Vec<f64>,
+    edge: impl Fn(usize, usize, &[Vec<f64>]) -> Vec<f64>,
+) -> Refined {
+    let n = surface.points.len();
+    let centers: Vec<_> = surface.faces.iter().map(|f| mean(n, f)).collect();
+    let edges = surface.edges();
+    let number: BTreeMap<_, _> = edges.iter().enumerate().map(|(i, &e)| (e, n + i)).collect();
+    let middle = |p: usize, q: usize| number[&(p.min(q), p.max(q))];
+    let mut masks: Vec<_> = (0..n).map(|v| vertex(v, &centers)).collect();
+    masks.extend(edges.iter().map(|&(p, q)| edge(p, q, &centers)));
+    let mut faces = Vec::new();
+    for (f, face) in surface.faces.iter().enumerate() {
+        for i in 0..face.len() {
+            let [before, p, after] = [face.len() - 1, 0, 1].map(|k| face[(i + k) % face.len()]);
+            faces.push(vec![p, middle(p, after), masks.len() + f, middle(p, before)]);
+        }
+    }
+    masks.extend(centers);
+    Refined::of(masks, faces)
+}
+
+fn mean(n: usize, of: &[usize]) -> Vec<f64> {
+    mask(n, of.iter().map(|&v| (v, 1.0 / of.len() as f64)))
+}
+
+/// Catmull and Clark 1978, with the boundary of the cubic B-spline and semi-sharp creases and corners as for
+/// [`loop_`]; vertices of `corners` are infinitely sharp.
+pub fn catmull_clark(surface: &Surface, corners: &[usize]) -> Refined {
+    let n = surface.points.len();
+    let sharpness = |p: usize, q: usize| {
+        if surface.is_boundary_edge(p, q) {
+            return f64::INFINITY;
+        }
+        surface.sharpness.get(&(p.min(q), p.max(q))).copied().unwrap_or(0.0)
+    };
+    let around = |v: usize| surface.neighbours(v).into_iter().filter_map(move |q| surface.corner(v, q)).map(|(f, _)| f);
+    let rule = |v: usize, age: f64, centers: &[Vec<f64>]| {
+        let ring = surface.neighbours(v);
+        let sharp: Vec<_> = ring.iter().copied().filter(|&q| sharpness(v, q) > age).collect();
+        match sharp[..] {
+            _ if corners.contains(&v) => mask(n, [(v, 1.0)]),
+            [] | [_] => {
+                let valence = ring.len() as f64;
+                let middles: Vec<_> = ring.iter().map(|&q| mask(n, [(v, 0.5), (q, 0.5)])).collect();
+                let q = blend(around(v).map(|f| (1.0 / valence, &centers[f])));
+                let r = blend(middles.iter().map(|m| (1.0 / valence, m)));
+                let s = mask(n, [(v, 1.0)]);
+                blend([(1.0 / valence, &q), (2.0 / valence, &r), ((valence - 3.0) / valence, &s)])
+            }
+            [a, b] => mask(n, [(v, 6.0 / 8.0), (a, 1.0 / 8.0), (b, 1.0 / 8.0)]),
+            _ => mask(n, [(v, 1.0)]),
+        }
+    };
+    let vertex = |v: usize, centers: &[Vec<f64>]| {
+        let ring = surface.neighbours(v);
+        let ending: Vec<_> = ring.iter().map(|&q| sharpness(v, q)).filter(|&s| s > 0.0 && s <= 1.0).collect();
+        let t = if ending.is_empty() { 1.0 } else { ending.iter().sum::<f64>() / ending.len() as f64 };
+        blend([(t, &rule(v, 0.0, centers)), (1.0 - t, &rule(v, 1.0, centers))])
+    };
+    let edge = |p: usize, q: usize, centers: &[Vec<f64>]| {
+        let s = sharpness(p, q).min(1.0);
+        let crease = mask(n, [(p, 1.0 / 2.0), (q, 1.0 / 2.0)]);
+        if s == 1.0 {
+            return crease;
+        }
+        let [(f, _), (g, _)] = [surface.corner(p, q).unwrap(), surface.corner(q, p).unwrap()];
+        let smooth = blend([(0.5, &crease), (0.25, &centers[f]), (0.25, &centers[g])]);
+        blend([(s, &crease), (1.0 - s, &smooth)])
+    };
+    quadrangulate(surface, vertex, edge)
+}
+
+/// Doo and Sabin 1978; the border is left out, or cut as Chaikin does it.
+pub fn doo_sabin(surface: &Surface, chaikin: bool) -> Refined {
+    let n = surface.points.len();
+    let mut masks = Vec::new();
+    let mut faces = Vec::new();
+    let mut number = BTreeMap::new(); // of the corner at p of the face left of p→q
+    let next = |face: &[usize], i: usize| face[(i + 1) % face.len()];
+    for face in &surface.faces {
+        let size = face.len() as f64;
+        let weight = |k: usize| match k {
+            0 => (size + 5.0) / (4.0 * size),
+            _ => (3.0 + 2.0 * (TAU * k as f64 / size).cos()) / (4.0 * size),
+        };
+        for (i, &p) in face.iter().enumerate() {
+            number.insert((p, next(face, i)), masks.len());
+            masks.push(mask(n, (0..face.len()).map(|k| (face[(i + k) % face.len()], weight(k)))));
+        }
+        faces.push((0..face.len()).map(|i| number[&(face[i], next(face, i))]).collect());
+    }
+    // The corner at q of the face left of p→q.
+    let behind = |p: usize, q: usize| Some((q, surface.across(p, q)?));
+    let mut cut = BTreeMap::new(); // of the new vertex near p on the border edge p–q
+    for (p, q) in surface.edges().into_iter().flat_map(|(p, q)| [(p, q), (q, p)]) {
+        let hole = surface.corner(p, q).is_none();
+        if p > q && !hole && surface.corner(q, p).is_some() {
+            continue; // an inner edge, done the other way
+        }
+        let Some(right) = behind(q, p).map(|c| [number[&c], number[&(q, p)]]) else { continue };
+        let left = if hole {
+            if !chaikin {
+                continue;
+            }
+            for (p, q) in [(q, p), (p, q)] {
+                cut.insert((p, q), masks.len());
+                masks.push(mask(n, [(p, 0.75), (q, 0.25)]));
+            }
+            [cut[&(q, p)], cut[&(p, q)]]
+        } else {
+            [number[&behind(p, q).unwrap()], number[&(p, q)]]
+        };
+        faces.push(right.into_iter().chain(left).collect());
+    }
+    for v in 0..n {
+        let ring = surface.neighbours(v);
+        let corners = ring.iter().filter_map(|&q| number.get(&(v, q)).copied());
+        match surface.boundary(v) {
+            None => faces.push(corners.collect()),
+            Some([first, last]) if chaikin => {
+                let [first, last] = [first, last].map(|q| cut[&(v, q)]);
+                faces.push(std::iter::once(first).chain(corners).chain([last]).collect());
+            }
+            Some(_) => {}
+        }
+    }
+    Refined::of(masks, faces)
+}
+
+/// Stam and Loop 2003, with the weights η of Shiue, Alliez, Ursu and Kettner's tutorial.
+pub fn quad_triangle(surface: &Surface, smooth_boundary: bool) -> Refined {
+    let n = surface.points.len();
+    let corner = |v: usize| mask(n, [(v, 1.0)]);
+    let mut split = quadrangulate(surface, |v, _| corner(v), |p, q, _| mask(n, [(p, 0.5), (q, 0.5)]));
+    // Middles of triangles go, and their three quads become four triangles.
+    let first = n + surface.edges().len();
+    let mut kept = (0..first).collect::<Vec<_>>();
+    let mut faces = Vec::new();
+    let mut at = 0;
+    for (f, face) in surface.faces.iter().enumerate() {
+        let quads = &split.faces[at..at + face.len()];
+        at += face.len();
+        if face.len() == 3 {
+            faces.extend(quads.iter().map(|q| vec![q[0], q[1], q[3]]));
+            faces.push(quads.iter().map(|q| q[1]).collect());
+        } else {
+            faces.extend(quads.iter().map(|q| vec![q[0], q[1], kept.len(), q[3]]));
+            kept.push(first + f);
+        }
+    }
+    split.masks = kept.into_iter().map(|v| split.masks[v].clone()).collect();
+    let flat = Surface::new(vec![glam::DVec3::ZERO; split.masks.len()], faces.clone());
+    let mean = |weights: Vec<(usize, f64)>| {
+        let sum: f64 = weights.iter().map(|(_, w)| w).sum();
+        blend(weights.iter().map(|&(v, w)| (w / sum, &split.masks[v])))
+    };
+    let vertex = |v: usize| match flat.boundary(v) {
+        Some([a, b]) if smooth_boundary => mean(vec![(a, 1.0), (v, 2.0), (b, 1.0)]),
+        Some(_) => split.masks[v].clone(),
+        None => {
+            let ring = flat.neighbours(v);
+            let quads: Vec<_> = ring.iter().filter(|&&q| flat.faces[flat.corner(v, q).unwrap().0].len() == 4).collect();
+            let across = quads.iter().map(|&&q| (flat.across(v, q).unwrap(), 0.25));
+            let smooth = mean(ring.iter().map(|&q| (q, 0.5)).chain([(v, 1.0)]).chain(across).collect());
+            let eta = match (ring.len(), quads.len()) {
+                (2, 1) => -0.20505,
+                (3, 1) => 0.80597,
+                (3, 2) => 0.61539,
+                (4, 1) => 0.34792,
+                (4, 2) => 0.21380,
+                (4, 3) => 0.10550,
+                _ => 0.0,
+            };
+            blend([(1.0 + eta, &smooth), (-eta, &split.masks[v])])
+        }
+    };
+    Refined::of((0..split.masks.len()).map(vertex).collect(), faces)
+}
+
 /// Limit positions of Loop's scheme; the boundary's of the cubic B-spline.
 pub fn loop_limit(surface: &Surface) -> Refined {
     limit(surface, |ring| {
