@@ -374,7 +374,7 @@ pub fn quad_triangle(surface: &Surface, smooth_boundary: bool) -> Refined {
         }
     }
     split.masks = kept.into_iter().map(|v| split.masks[v].clone()).collect();
-    let flat = Surface::new(vec![glam::DVec3::ZERO; split.masks.len()], faces.clone());
+    let flat = Surface::new(vec![DVec3::ZERO; split.masks.len()], faces.clone());
     let mean = |weights: Vec<(usize, f64)>| {
         let sum: f64 = weights.iter().map(|(_, w)| w).sum();
         blend(weights.iter().map(|&(v, w)| (w / sum, &split.masks[v])))
