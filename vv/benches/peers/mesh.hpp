@@ -101,8 +101,8 @@ inline std::string sums(const Lists& lists) {
     at += valence;
   }
   char text[200];
-  std::snprintf(text, sizeof text, "\"vertices\": %zu, \"faces\": %zu, \"volume\": %.17g, \"squares\": %.17g",
-                lists.points.size(), lists.valences.size(), volume / 6, squares);
+  std::snprintf(text, sizeof text, "\"vertices\": %zu, \"volume\": %.17g, \"squares\": %.17g",
+                lists.points.size(), volume / 6, squares);
   return text;
 }
 
@@ -132,7 +132,7 @@ template <class Work> double seconds(Work work) {
 
 // Writes the time and, if asked to, sums and the mesh: `lists` makes it.
 template <class MakeLists> int report(const Arguments& arguments, double time, size_t faces, MakeLists make_lists) {
-  std::printf("{\"seconds\": %.9f, \"output_faces\": %zu", time, faces);
+  std::printf("{\"seconds\": %.9f, \"faces\": %zu", time, faces);
   std::string output = arguments.option("--output", ""), check = arguments.option("--check", "no");
   if (!output.empty() || check == "yes") {
     Lists lists = make_lists();

@@ -42,7 +42,7 @@ pub fn run(
 type Ended = (Result<Mesh, Failure>, Vec<String>);
 
 /// What the interpreter gives, or how the other engine differs from it.
-fn compare(
+pub fn compare(
     program: &Program,
     native: &Machine,
     function: FunctionId,

@@ -6,16 +6,18 @@ mod matching;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::DVec3;
-use vv::engine::Settings;
+use vv::engine::{Engine, Machine, Settings};
 use vv::io::{Format, ReadOptions, read};
+use vv::ir::Program;
 use vv::mesh::close::close;
 use vv::mesh::faces::faces;
 use vv::mesh::{Mesh, Value, Vertex};
 use vv::stop::Stop;
 
-use crate::engines::{compile_file, run};
+use crate::engines::{self, compile_file};
 use matching::{Lists, same};
 
 const TOLERANCE: f64 = 1e-9;
@@ -81,6 +83,8 @@ fn every_result_is_compared() {
 #[track_caller]
 fn check(program: &str) {
     let mut wrong = Vec::new();
+    let compiled = compile_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/programs").join(program));
+    let native = Machine::new(Arc::clone(&compiled), Engine::Native);
     let oracles: Vec<_> = ORACLES.iter().filter(|oracle| oracle.program == program).collect();
     assert_ne!(oracles.len(), 0, "{program}");
     for oracle in oracles {
@@ -89,7 +93,7 @@ fn check(program: &str) {
             files.iter().filter_map(|path| path.file_stem()?.to_str()?.strip_suffix("-1")).collect();
         assert_ne!(names.len(), 0, "{}", oracle.folder);
         for name in names {
-            let differences = compare(oracle, name);
+            let differences = compare(oracle, name, &compiled, &native);
             match oracle.except {
                 Some((except, why)) if except.contains(&name) => {
                     if differences.is_empty() {
@@ -104,15 +108,14 @@ fn check(program: &str) {
 }
 
 /// The differences, step by step, for the steps that there are results of.
-fn compare(oracle: &Oracle, name: &str) -> Vec<String> {
-    let program = compile_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/programs").join(oracle.program));
+fn compare(oracle: &Oracle, name: &str, program: &Program, native: &Machine) -> Vec<String> {
     let rule = program.default_rule().unwrap();
     let mut mesh = input(name, oracle.with);
     let mut differences = Vec::new();
     for step in 1.. {
         let path = fixtures().join(oracle.folder).join(format!("{name}-{step}.off"));
         let Ok(text) = fs::read_to_string(&path) else { break };
-        mesh = run(&program, rule, &mesh, step, &Settings::default(), &mut Vec::new()).unwrap();
+        mesh = engines::compare(program, native, rule, &mesh, step, &Settings::default()).unwrap().0.unwrap();
         assert_eq!(close(&mut mesh, &Stop::new()).unwrap(), [], "{}, step {step} of {name}", oracle.program);
         if let Err(difference) = same(&lists(&mesh), &parse(&text), TOLERANCE) {
             differences.push(format!("{}, step {step} of {name}: {difference}", oracle.folder));
