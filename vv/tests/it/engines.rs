@@ -123,7 +123,7 @@ fn assets(folder: &str, extension: &str) -> Vec<PathBuf> {
     paths
 }
 
-pub fn compile_file(path: &Path) -> Arc<Program> {
+fn compile_file(path: &Path) -> Arc<Program> {
     let text = std::fs::read_to_string(path).unwrap();
     let folder = path.parent().unwrap().to_owned();
     let mut include = |_: &str, name: &str| {
