@@ -86,23 +86,28 @@ inline void write_off(const Lists& lists, const std::string& path) {
   if (!out.flush()) fail("cannot write " + path);
 }
 
-// Counts and two numbers that hardly two different surfaces share: the enclosed volume and the sum of the squares of all
-// coordinates. Returned as JSON without braces.
+inline Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Two numbers that hardly two different surfaces share: the sum of the squares of all coordinates and the enclosed volume,
+// of cones from the origin, whose heights are those of the faces' middles. As JSON without braces.
 inline std::string sums(const Lists& lists) {
   double squares = 0, volume = 0;
   for (const Point& p : lists.points) squares += p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-  size_t at = 0;
-  for (int valence : lists.valences) {
-    const Point& a = lists.points[lists.corners[at]];
-    for (int i = 2; i < valence; ++i) {
-      const Point &b = lists.points[lists.corners[at + i - 1]], &c = lists.points[lists.corners[at + i]];
-      volume += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  const int* corner = lists.corners.data();
+  for (int n : lists.valences) {
+    Point sum{}, area{};
+    for (int i = 0; i < n; ++i) {
+      const Point &p = lists.points[corner[i]], &q = lists.points[corner[(i + 1) % n]], normal = cross(p, q);
+      for (int axis = 0; axis < 3; ++axis) sum[axis] += p[axis], area[axis] += normal[axis];
     }
-    at += valence;
+    for (int axis = 0; axis < 3; ++axis) volume += sum[axis] * area[axis] / (6 * n);
+    corner += n;
   }
   char text[200];
   std::snprintf(text, sizeof text, "\"vertices\": %zu, \"volume\": %.17g, \"squares\": %.17g",
-                lists.points.size(), volume / 6, squares);
+                lists.points.size(), volume, squares);
   return text;
 }
 
