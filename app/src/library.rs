@@ -48,10 +48,17 @@ pub const MESHES: &[Shipped] = &[
     Shipped { name: "torus-quads.obj", text: include_str!("../../assets/meshes/torus-quads.obj") },
     Shipped { name: "genus-2.obj", text: include_str!("../../assets/meshes/genus-2.obj") },
     Shipped { name: "genus-2-quads.obj", text: include_str!("../../assets/meshes/genus-2-quads.obj") },
+    Shipped { name: "cube-frame.obj", text: include_str!("../../assets/meshes/cube-frame.obj") },
+    Shipped { name: "cube-creased.obj", text: include_str!("../../assets/meshes/cube-creased.obj") },
+    Shipped { name: "pawn.obj", text: include_str!("../../assets/meshes/pawn.obj") },
+    Shipped { name: "elephant.obj", text: include_str!("../../assets/meshes/elephant.obj") },
     Shipped { name: "tetrapod.obj", text: include_str!("../../assets/meshes/tetrapod.obj") },
     Shipped { name: "cube-open.obj", text: include_str!("../../assets/meshes/cube-open.obj") },
     Shipped { name: "cube-open-quads.obj", text: include_str!("../../assets/meshes/cube-open-quads.obj") },
     Shipped { name: "square-open.obj", text: include_str!("../../assets/meshes/square-open.obj") },
+    Shipped { name: "grid-open.obj", text: include_str!("../../assets/meshes/grid-open.obj") },
+    Shipped { name: "grid-open-quads.obj", text: include_str!("../../assets/meshes/grid-open-quads.obj") },
+    Shipped { name: "star.obj", text: include_str!("../../assets/meshes/star.obj") },
 ];
 
 /// The program of a name.

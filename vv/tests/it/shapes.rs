@@ -5,12 +5,14 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use glam::{DVec3, dvec3};
-use vv::io::{Format, write};
-use vv::mesh::build::{Polygons, build};
+use vv::io::{Format, SHARPNESS, write};
+use vv::mesh::build::{EdgeValues, Polygons, build};
 use vv::mesh::faces::{Faces, faces};
 use vv::mesh::statistics::statistics;
-use vv::mesh::{Mesh, Vertex};
+use vv::mesh::{Mesh, Values, Vertex};
 use vv::stop::Stop;
+
+mod elephant;
 
 /// Points and faces.
 type Shape = (Vec<DVec3>, Vec<Vec<u32>>);
@@ -36,12 +38,31 @@ fn assets_are_what_is_made_here() {
     check("genus-2", triangulated(two_holes()));
     check("genus-2-quads", two_holes());
     check("tetrapod", tetrapod());
+    check("cube-frame", boxes([4, 4, 4], |cell| cell.iter().filter(|&&c| c == 1).count() < 2, |p| p - 1.5));
+    check("elephant", elephant::elephant());
+    check("star", star());
+    check("grid-open-quads", grid());
+    check("grid-open", triangulated(grid()));
+    check_sharp("cube-creased", hull(&cube), can);
+    check_sharp("pawn", pawn(), turned_edges);
 }
 
 /// Compares a shape with its file.
 #[track_caller]
-fn check(name: &str, (positions, polygons): Shape) {
-    let mut made = Polygons::new(positions);
+fn check(name: &str, shape: Shape) {
+    check_sharp(name, shape, |_, _| 0.0);
+}
+
+/// Compares a shape with its file; `sharpness` is that of the edge between two points.
+#[track_caller]
+fn check_sharp(name: &str, (positions, polygons): Shape, sharpness: impl Fn(DVec3, DVec3) -> f64) {
+    let mut made = Polygons::new(positions.clone());
+    let sides = polygons.iter().flat_map(|face| face.iter().zip(face.iter().cycle().skip(1)));
+    let edges = sides.map(|(&a, &b)| ([a, b], sharpness(positions[a as usize], positions[b as usize])));
+    let (ends, values): (Vec<_>, Vec<_>) = edges.filter(|&(_, sharpness)| sharpness > 0.0).unzip();
+    if !ends.is_empty() {
+        made.values.edges.push(EdgeValues { name: SHARPNESS.to_owned(), ends, values: Values::Double(values.into()) });
+    }
     polygons.into_iter().for_each(|face| made.push(face, None).unwrap());
     let (mesh, warnings) = build(made, true, &Stop::new()).unwrap();
     assert_eq!(warnings, [], "{name}");
@@ -143,37 +164,115 @@ fn torus() -> Shape {
 
 /// A slab of 5 by 3 cubes without two of them.
 fn two_holes() -> Shape {
-    let full = |x: i32, y: i32, z: i32| {
-        (0..5).contains(&x) && (0..3).contains(&y) && z == 0 && !(y == 1 && (x == 1 || x == 3))
-    };
-    let (mut points, mut faces) = (Vec::new(), Vec::new());
-    let mut number = |x: i32, y: i32, z: i32| {
-        let p = dvec3(f64::from(x) - 2.5, f64::from(y) - 1.5, f64::from(z) - 0.5);
+    boxes([6, 4, 2], |[x, y, _]| !(y == 1 && (x == 1 || x == 3)), |p| p - dvec3(2.5, 1.5, 0.5))
+}
+
+/// The surface of those cells of a grid of `n` lines in each direction that are full; `place` says where the point of
+/// the grid lies.
+fn boxes(n: [i32; 3], full: impl Fn([i32; 3]) -> bool, place: impl Fn(DVec3) -> DVec3) -> Shape {
+    let is_full = |cell: [i32; 3]| (0..3).all(|k| (0..n[k] - 1).contains(&cell[k])) && full(cell);
+    let mut points: Vec<[i32; 3]> = Vec::new();
+    let mut faces = Vec::new();
+    let mut number = |p: [i32; 3]| {
         points.iter().position(|&q| q == p).unwrap_or_else(|| {
             points.push(p);
             points.len() - 1
         }) as u32
     };
-    for (x, y) in (0..3).flat_map(|y| (0..5).map(move |x| (x, y))) {
-        if !full(x, y, 0) {
-            continue;
-        }
-        let mut add =
-            |corners: [[i32; 3]; 4]| faces.push(corners.map(|[dx, dy, dz]| number(x + dx, y + dy, dz)).to_vec());
-        add([[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0]]);
-        add([[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]);
-        for (dx, dy, corners) in [
-            (-1, 0, [[0, 0, 0], [0, 0, 1], [0, 1, 1], [0, 1, 0]]),
-            (1, 0, [[1, 0, 0], [1, 1, 0], [1, 1, 1], [1, 0, 1]]),
-            (0, -1, [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]]),
-            (0, 1, [[0, 1, 0], [0, 1, 1], [1, 1, 1], [1, 1, 0]]),
-        ] {
-            if !full(x + dx, y + dy, 0) {
-                add(corners);
+    let cells = (0..n[2]).flat_map(|z| (0..n[1]).flat_map(move |y| (0..n[0]).map(move |x| [x, y, z])));
+    for cell in cells.filter(|&cell| is_full(cell)) {
+        // Below and above first, then around.
+        for (axis, side) in [(2, 0), (2, 1), (0, 0), (0, 1), (1, 0), (1, 1)] {
+            let mut beyond = cell;
+            beyond[axis] += 2 * side - 1;
+            if is_full(beyond) {
+                continue;
             }
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let corner = |du: i32, dv: i32| {
+                let mut p = cell;
+                p[axis] += side;
+                p[u] += du;
+                p[v] += dv;
+                p
+            };
+            let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)];
+            let face = if side == 1 { [a, b, c, d] } else { [a, d, c, b] };
+            faces.push(face.map(&mut number).to_vec());
         }
     }
+    let place = |[x, y, z]: [i32; 3]| place(dvec3(f64::from(x), f64::from(y), f64::from(z)));
+    (points.into_iter().map(place).collect(), faces)
+}
+
+/// One polygon with five points.
+fn star() -> Shape {
+    let point = |i: u32| {
+        let (angle, r) = (TAU * (f64::from(i) / 10.0 + 0.25), if i % 2 == 0 { 1.0 } else { 0.45 });
+        round(dvec3(r * angle.cos(), r * angle.sin(), 0.0))
+    };
+    ((0..10).map(point).collect(), vec![(0..10).collect()])
+}
+
+/// A level field of 6 by 6 squares, seen from above.
+fn grid() -> Shape {
+    let n = 6;
+    let points = (0..=n).flat_map(|j| (0..=n).map(move |i| dvec3(f64::from(i) - 3.0, 0.0, 3.0 - f64::from(j))));
+    let at = |i: u32, j: u32| j * (n + 1) + i;
+    let square = |i, j| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+    (points.collect(), (0..n).flat_map(|j| (0..n).map(move |i| square(i, j))).collect())
+}
+
+/// Makes a cube a can: a bottom that stays sharp, a lid that is rounded off after two steps.
+fn can(a: DVec3, b: DVec3) -> f64 {
+    match (a.y, b.y) {
+        (-1.0, -1.0) => 10.0,
+        (1.0, 1.0) => 2.0,
+        _ => 0.0,
+    }
+}
+
+/// Radius and height of the rings of a chessman, from below, and how sharp each is.
+const PROFILE: [(f64, f64, f64); 9] = [
+    (1.0, 0.0, 10.0),
+    (1.0, 0.3, 2.0),
+    (0.7, 0.6, 0.0),
+    (0.4, 1.1, 0.0),
+    (0.38, 1.75, 0.0),
+    (0.72, 1.85, 3.0),
+    (0.72, 2.0, 3.0),
+    (0.4, 2.05, 0.0),
+    (0.62, 2.65, 0.0),
+];
+
+/// Turned from a profile, eight-sided; the head is closed by a small ring and a cap.
+fn pawn() -> Shape {
+    let sides = 8;
+    let ring = |(r, y, _): (f64, f64, f64)| {
+        (0..sides).map(move |i| {
+            let angle = TAU * (f64::from(i) + 0.5) / f64::from(sides);
+            round(dvec3(r * angle.sin(), y, r * angle.cos()))
+        })
+    };
+    let rings = PROFILE.into_iter().chain([(0.3, 3.1, 0.0)]);
+    let points: Vec<DVec3> = rings.flat_map(ring).collect();
+    let count = points.len() as u32 / sides;
+    let at = |ring: u32, i: u32| ring * sides + i % sides;
+    let side = |ring, i| vec![at(ring, i), at(ring, i + 1), at(ring + 1, i + 1), at(ring + 1, i)];
+    let mut faces = vec![(0..sides).rev().collect()];
+    faces.extend((0..count - 1).flat_map(|ring| (0..sides).map(move |i| side(ring, i))));
+    faces.push((0..sides).map(|i| at(count - 1, i)).collect());
     (points, faces)
+}
+
+/// The sharpness of the ring on which an edge lies.
+fn turned_edges(a: DVec3, b: DVec3) -> f64 {
+    let radius = |p: DVec3| p.x.hypot(p.z);
+    let of = |p: DVec3| PROFILE.iter().find(|&&(r, y, _)| y == p.y && (radius(p) - r).abs() < 1e-3);
+    match (of(a), of(b)) {
+        (Some(&(_, y, sharpness)), Some(&(_, z, _))) if y == z => sharpness,
+        _ => 0.0,
+    }
 }
 
 /// A tetrahedron with an arm of two segments on each face.
