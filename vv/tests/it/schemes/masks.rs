@@ -54,31 +54,41 @@ fn loop_with_tangents_at_the_boundary() {
     }
 }
 
-#[test]
-fn loop_with_creases() {
-    let scheme = Scheme::new("loop-creases.vv", "loop_creases");
-    for sharp in [
-        &[1.0][..],
+/// Sharp edges at the middle of a star, none, one, two and more of them, and a sharp middle.
+fn creased(around: Around) -> impl Iterator<Item = (String, Surface)> {
+    let edges: [&[f64]; 12] = [
+        &[1.0],
         &[0.4],
         &[2.0, 2.0],
         &[0.25, 1.5],
         &[0.3, 0.5],
         &[1.0, 1.0],
         &[10.0, 0.5],
-        &[3.0; 3],
+        &[3.0, 3.0, 3.0],
         &[0.5, 2.0, 2.0],
         &[0.5, 0.75, 2.0],
         &[0.1, 0.2, 0.9],
         &[10.0, 10.0, 0.5, 1.0],
-    ] {
-        for (name, mut surface) in
-            [("inside", star(5, 2, Around::Triangles, false)), ("boundary", star(4, 2, Around::Triangles, true))]
-        {
+    ];
+    let corners = [0.0, 0.0, 0.0, 0.5, 1.0, 2.5];
+    edges.into_iter().enumerate().flat_map(move |(i, sharp)| {
+        [false, true].map(|open| {
+            let mut surface = star(if open { 4 } else { 5 }, 2, around, open);
             let ring = surface.neighbours(0);
             let inner = ring.iter().filter(|&&q| !surface.is_boundary_edge(0, q));
             surface.sharpness = inner.zip(sharp).map(|(&q, &s)| ((0, q), s)).collect();
-            check(&format!("{name} {sharp:?}"), &scheme, &surface, &published::loop_(&surface, false));
-        }
+            let corner = corners[(i + usize::from(open)) % corners.len()];
+            surface.sharp_vertices.insert(0, corner);
+            (format!("{sharp:?}, {corner}, open {open}"), surface)
+        })
+    })
+}
+
+#[test]
+fn loop_with_creases() {
+    let scheme = Scheme::new("loop-creases.vv", "loop_creases");
+    for (name, surface) in creased(Around::Triangles) {
+        check(&name, &scheme, &surface, &published::loop_(&surface, false));
     }
 }
 

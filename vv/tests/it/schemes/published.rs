@@ -61,51 +61,63 @@ fn quadrisect(
     Refined::of(masks, faces)
 }
 
-/// Loop 1987, with the boundary of the cubic B-spline and the semi-sharp creases of DeRose, Kass and Truong 1998 in the
-/// form OpenSubdiv gives them ("uniform"). With `c1` boundary vertices of k triangles get Biermann, Levin and Zorin's
-/// 3/4 - γ and γ = 1/2 - cos(π/k)/4 on their inner edges.
+/// Semi-sharp creases and corners (DeRose, Kass and Truong 1998) in the form OpenSubdiv gives them ("uniform"): from the
+/// masks of a smooth scheme to those of vertices and of edges. A boundary is a crease for ever, of cubic B-splines.
+fn creased_vertex(surface: &Surface, v: usize, smooth: impl Fn() -> Vec<f64>) -> Vec<f64> {
+    let n = surface.points.len();
+    let ring = surface.neighbours(v);
+    let corner = surface.sharp_vertices.get(&v).copied().unwrap_or(0.0);
+    let rule = |age: f64| {
+        let sharp: Vec<_> = ring.iter().copied().filter(|&q| sharpness(surface, v, q) > age).collect();
+        match sharp[..] {
+            _ if corner > age => one(n, v),
+            [] | [_] => smooth(),
+            [a, b] => mask(n, [(v, 6.0 / 8.0), (a, 1.0 / 8.0), (b, 1.0 / 8.0)]),
+            _ => one(n, v),
+        }
+    };
+    let all = ring.iter().map(|&q| sharpness(surface, v, q)).chain([corner]);
+    let ending: Vec<_> = all.filter(|&s| s > 0.0 && s <= 1.0).collect();
+    let t = if ending.is_empty() { 1.0 } else { ending.iter().sum::<f64>() / ending.len() as f64 };
+    blend([(t, &rule(0.0)), (1.0 - t, &rule(1.0))])
+}
+
+fn creased_edge(surface: &Surface, p: usize, q: usize, smooth: impl Fn() -> Vec<f64>) -> Vec<f64> {
+    let s = sharpness(surface, p, q).min(1.0);
+    let crease = mask(surface.points.len(), [(p, 1.0 / 2.0), (q, 1.0 / 2.0)]);
+    if s == 1.0 { crease } else { blend([(s, &crease), (1.0 - s, &smooth())]) }
+}
+
+fn sharpness(surface: &Surface, p: usize, q: usize) -> f64 {
+    if surface.is_boundary_edge(p, q) {
+        return f64::INFINITY;
+    }
+    surface.sharpness.get(&(p.min(q), p.max(q))).copied().unwrap_or(0.0)
+}
+
+/// Loop 1987. With `c1` boundary vertices of k triangles get Biermann, Levin and Zorin's 3/4 - γ and
+/// γ = 1/2 - cos(π/k)/4 on their inner edges.
 pub fn loop_(surface: &Surface, c1: bool) -> Refined {
     let n = surface.points.len();
-    let sharpness = |p: usize, q: usize| {
-        if surface.is_boundary_edge(p, q) {
-            return f64::INFINITY;
-        }
-        surface.sharpness.get(&(p.min(q), p.max(q))).copied().unwrap_or(0.0)
-    };
-    let rule = |v: usize, age: f64| {
-        let ring = surface.neighbours(v);
-        let sharp: Vec<_> = ring.iter().copied().filter(|&q| sharpness(v, q) > age).collect();
-        match sharp[..] {
-            [] | [_] => {
-                let valence = ring.len() as f64;
-                let c = 3.0 / 8.0 + (TAU / valence).cos() / 4.0;
-                let w = (5.0 / 8.0 - c * c) / valence;
-                mask(n, ring.iter().map(|&q| (q, w)).chain([(v, 1.0 - valence * w)]))
-            }
-            [a, b] => mask(n, [(v, 6.0 / 8.0), (a, 1.0 / 8.0), (b, 1.0 / 8.0)]),
-            _ => mask(n, [(v, 1.0)]),
-        }
-    };
     let vertex = |v: usize| {
-        let ring = surface.neighbours(v);
-        let ending: Vec<_> = ring.iter().map(|&q| sharpness(v, q)).filter(|&s| s > 0.0 && s <= 1.0).collect();
-        let t = if ending.is_empty() { 1.0 } else { ending.iter().sum::<f64>() / ending.len() as f64 };
-        blend([(t, &rule(v, 0.0)), (1.0 - t, &rule(v, 1.0))])
+        creased_vertex(surface, v, || {
+            let ring = surface.neighbours(v);
+            let valence = ring.len() as f64;
+            let c = 3.0 / 8.0 + (TAU / valence).cos() / 4.0;
+            let w = (5.0 / 8.0 - c * c) / valence;
+            mask(n, ring.iter().map(|&q| (q, w)).chain([(v, 1.0 - valence * w)]))
+        })
+    };
+    let excess = |v: usize| match surface.boundary(v) {
+        Some(_) if c1 => 1.0 / 8.0 - (PI / (surface.neighbours(v).len() - 1) as f64).cos() / 4.0,
+        _ => 0.0,
     };
     let edge = |p: usize, q: usize| {
-        let s = sharpness(p, q).min(1.0);
-        let crease = mask(n, [(p, 1.0 / 2.0), (q, 1.0 / 2.0)]);
-        if s == 1.0 {
-            return crease;
-        }
-        let (a, b) = (surface.across(p, q).unwrap(), surface.across(q, p).unwrap());
-        let excess = |v: usize| match surface.boundary(v) {
-            Some(_) if c1 => 1.0 / 8.0 - (PI / (surface.neighbours(v).len() - 1) as f64).cos() / 4.0,
-            _ => 0.0,
-        };
-        let (i, j) = (excess(p), excess(q));
-        let smooth = [(p, 3.0 / 8.0 - i + j), (q, 3.0 / 8.0 + i - j), (a, 1.0 / 8.0), (b, 1.0 / 8.0)];
-        blend([(s, &crease), (1.0 - s, &mask(n, smooth))])
+        creased_edge(surface, p, q, || {
+            let (a, b) = (surface.across(p, q).unwrap(), surface.across(q, p).unwrap());
+            let (i, j) = (excess(p), excess(q));
+            mask(n, [(p, 3.0 / 8.0 - i + j), (q, 3.0 / 8.0 + i - j), (a, 1.0 / 8.0), (b, 1.0 / 8.0)])
+        })
     };
     quadrisect(surface, vertex, edge)
 }

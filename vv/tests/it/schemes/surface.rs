@@ -21,6 +21,8 @@ pub struct Surface {
     corners: BTreeMap<(usize, usize), (usize, usize)>,
     /// Sharpness by (p, q), p < q; zero if it is not there.
     pub sharpness: BTreeMap<(usize, usize), f64>,
+    /// Sharpness by vertex.
+    pub sharp_vertices: BTreeMap<usize, f64>,
 }
 
 impl Surface {
@@ -31,7 +33,7 @@ impl Surface {
                 corners.insert((p, face[(i + 1) % face.len()]), (f, i));
             }
         }
-        Self { points, faces, corners, sharpness: BTreeMap::new() }
+        Self { points, faces, corners, sharpness: BTreeMap::new(), sharp_vertices: BTreeMap::new() }
     }
 
     pub fn of(mesh: &Mesh) -> Self {
@@ -60,6 +62,10 @@ impl Surface {
         let vertex = |v: usize| Vertex::from_index(v).unwrap();
         for (&(p, q), &s) in &self.sharpness {
             assert!(mesh.set_edge_value(sharpness, vertex(p), vertex(q), Value::Double(s)));
+        }
+        let sharpness = mesh.declare_vertex_property("sharpness", Value::Double(0.0));
+        for (&v, &s) in &self.sharp_vertices {
+            mesh.set_vertex_value(sharpness, vertex(v), Value::Double(s));
         }
         mesh
     }
