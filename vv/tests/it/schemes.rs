@@ -56,6 +56,7 @@ impl Scheme {
         let program = compile(file, &text.replacen(from, to, 1));
         assert!(program.rule(rule).is_some(), "{file} has no rule {rule}");
         let native = Machine::new(program, Engine::Native);
+        assert_eq!(native.refusal(), None, "{file}");
         Self { native, rule, params: Vec::new() }
     }
 

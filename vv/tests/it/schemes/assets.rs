@@ -94,6 +94,7 @@ fn every_program_runs_on_every_mesh_it_is_for() {
         let file = name(&path);
         let program = compile(&file, &std::fs::read_to_string(&path).unwrap());
         let native = Machine::new(program, Engine::Native);
+        assert_eq!(native.refusal(), None, "{file}");
         let program = native.program();
         for &rule in &program.rules {
             let rule_name = &program.function(rule).unwrap().name;

@@ -1,5 +1,8 @@
 //! The masks of every scheme, on every valence from 3 to 12 inside and on every number of sectors at a boundary.
 
+use std::f64::consts::TAU;
+
+use glam::DVec3;
 use vv::mesh::Value;
 
 use super::published::{self, Curve, Refined};
@@ -313,5 +316,61 @@ fn four_eight() {
             let result = scheme.measure(&mesh).and_then(|measured| compare(&measured, &expected));
             result.unwrap_or_else(|difference| panic!("{name}, step {step}: {difference}"));
         }
+    }
+}
+
+/// Stars of quads and of triangles, and polygons of many corners.
+fn polygons(size: usize) -> impl Iterator<Item = (String, Surface)> {
+    let assets =
+        ["dodecahedron.obj", "genus-2-quads.obj", "cube-open.obj"].map(|name| (name.to_owned(), Surface::asset(name)));
+    stars(Around::Quads, size).chain(stars(Around::Triangles, 2)).chain(assets)
+}
+
+#[test]
+fn catmull_clark() {
+    let scheme = Scheme::new("catmull-clark.vv", "catmull_clark");
+    for (name, surface) in polygons(2) {
+        check(&name, &scheme, &surface, &published::catmull_clark(&surface));
+    }
+}
+
+#[test]
+fn doo_sabin() {
+    for chaikin in [false, true] {
+        let scheme = Scheme::new("doo-sabin.vv", "doo_sabin").with("chaikin", Value::Bool(chaikin));
+        for (name, surface) in polygons(2) {
+            check(&format!("{name}, {chaikin}"), &scheme, &surface, &published::doo_sabin(&surface, chaikin));
+        }
+    }
+}
+
+/// Around a vertex `triangles` triangles, then `quads` quads, on a plane.
+fn fan(triangles: usize, quads: usize) -> Surface {
+    let mut points = vec![DVec3::ZERO];
+    let mut faces = Vec::new();
+    let n = triangles + quads;
+    let spoke = |i: usize| 1 + i % n;
+    let angle = |i: f64| DVec3::new((TAU * i / n as f64).cos(), (TAU * i / n as f64).sin(), 0.0);
+    points.extend((0..n).map(|i| angle(i as f64)));
+    for i in 0..n {
+        if i < triangles {
+            faces.push(vec![0, spoke(i), spoke(i + 1)]);
+        } else {
+            points.push(2.0 * angle(i as f64 + 0.5));
+            faces.push(vec![0, spoke(i), points.len() - 1, spoke(i + 1)]);
+        }
+    }
+    Surface::new(points, faces)
+}
+
+#[test]
+fn quad_triangle() {
+    let scheme = Scheme::new("quad-triangle.vv", "quad_triangle");
+    for (name, surface) in polygons(2) {
+        check(&name, &scheme, &surface, &published::quad_triangle(&surface));
+    }
+    for (triangles, quads) in (3..8).flat_map(|n| (1..n).map(move |q| (n - q, q))) {
+        let surface = fan(triangles, quads);
+        check(&format!("{triangles} and {quads}"), &scheme, &surface, &published::quad_triangle(&surface));
     }
 }
