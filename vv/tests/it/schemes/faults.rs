@@ -73,6 +73,49 @@ fn faults_in_midedge_are_found() {
 }
 
 #[test]
+fn faults_in_catmull_clark_are_found() {
+    let faults = [("(n - 3.0) * n", "(n - 2.0) * n"), ("/ 4.0", "/ 5.0"), ("2.0 * x$pos", "3.0 * x$pos")];
+    check("catmull-clark.vv", "catmull_clark", Around::Quads, published::catmull_clark, &faults);
+}
+
+#[test]
+fn faults_in_doo_sabin_are_found() {
+    let faults = [("n + 5.0", "n + 4.0"), ("k += 1", "k += 0.5"), ("3.0 + 2.0", "3.0 + 3.0")];
+    check("doo-sabin.vv", "doo_sabin", Around::Triangles, |s| published::doo_sabin(s, false), &faults);
+}
+
+#[test]
+fn faults_in_quad_triangle_are_found() {
+    let faults = [("2.0 * v$pos", "3.0 * v$pos"), ("q += 1", "q += 2"), ("4.0 + 2.0 * e", "4.0 + 3.0 * e")];
+    check("quad-triangle.vv", "quad_triangle", Around::Quads, |s| published::quad_triangle(s, true), &faults);
+}
+
+#[test]
+fn faults_in_conway_operators_are_found() {
+    let faults =
+        [("splice c before p in x", "splice c after p in x"), ("3.0 * p$pos / valence f", "p$pos / valence f")];
+    check("conway.vv", "gyro", Around::Quads, published::gyro, &faults);
+    let faults = [("/ valence f", "/ 4.1"), ("(prevto c in p) in c", "(nextto (nextto c in p) in p) in c")];
+    check("conway.vv", "dual", Around::Quads, published::dual, &faults);
+    let faults = [("nextto x in p, prevto x in p} nb_of x", "prevto x in p, nextto x in p} nb_of x")];
+    check("conway.vv", "truncate", Around::Quads, published::truncate, &faults);
+}
+
+#[test]
+fn faults_in_four_eight_are_found() {
+    let faults = [("sum / kept", "sum / (kept + 1)"), ("p$pos / valence f", "p$pos / (valence f + 1)")];
+    check("four-eight.vv", "four_eight", Around::Quads, |s| published::four_eight(s, true), &faults);
+}
+
+#[test]
+fn faults_in_limits_are_found() {
+    let faults = [("n + 3.0", "n + 2.0"), ("1.0/6.0", "1.0/5.0")];
+    check("limit.vv", "loop_limit", Around::Triangles, published::loop_limit, &faults);
+    let faults = [("4.0 * `q$pos", "3.0 * `q$pos"), ("n + 5.0", "n + 4.0")];
+    check("limit.vv", "catmull_clark_limit", Around::Quads, published::catmull_clark_limit, &faults);
+}
+
+#[test]
 fn faults_in_curves_are_found() {
     let curve = vec![vec![1], vec![0, 2], vec![1, 3], vec![2]];
     for (rule, expected, from, to) in [

@@ -26,6 +26,9 @@ fn refining() -> Vec<(&'static str, &'static str, &'static [&'static str])> {
         ("loop-creases.vv", "loop_creases", &TRIANGLES),
         ("butterfly.vv", "butterfly", &TRIANGLES),
         ("sqrt3.vv", "sqrt3", &TRIANGLES),
+        ("catmull-clark.vv", "catmull_clark", &QUADS),
+        ("quad-triangle.vv", "quad_triangle", &TRIANGLES),
+        ("quad-triangle.vv", "quad_triangle", &QUADS),
         ("four-eight.vv", "four_eight", &TRIANGLES),
         ("four-eight.vv", "four_eight", &QUADS),
         ("conway.vv", "kis", &QUADS),
@@ -41,7 +44,9 @@ fn all() -> Vec<(&'static str, &'static str, &'static [&'static str])> {
         ("conway.vv", "dual", &QUADS[..3]),
         ("conway.vv", "truncate", &QUADS),
         ("conway.vv", "bevel", &QUADS),
-        ("midedge.vv", "midedge", &TRIANGLES[..]),
+        ("catmull-clark.vv", "catmull_clark", &TRIANGLES[..]),
+        ("doo-sabin.vv", "doo_sabin", &QUADS),
+        ("midedge.vv", "midedge", &TRIANGLES),
         ("midedge.vv", "midedge", &QUADS),
         ("limit.vv", "loop_limit", &TRIANGLES),
         ("limit.vv", "catmull_clark_limit", &QUADS),
@@ -84,9 +89,14 @@ fn refinement_keeps_the_topology() {
 /// Faces after two steps, for each before.
 #[test]
 fn refinement_multiplies_the_faces() {
-    for (file, rule, factor) in [("loop.vv", "loop", 16), ("butterfly.vv", "butterfly", 16), ("sqrt3.vv", "sqrt3", 9)] {
+    for (file, rule, meshes, factor) in [
+        ("loop.vv", "loop", &TRIANGLES[..], 16),
+        ("butterfly.vv", "butterfly", &TRIANGLES, 16),
+        ("sqrt3.vv", "sqrt3", &TRIANGLES, 9),
+        ("catmull-clark.vv", "catmull_clark", &QUADS, 16),
+    ] {
         let scheme = Scheme::new(file, rule);
-        for name in TRIANGLES {
+        for name in meshes {
             let mesh = Surface::asset(name).mesh();
             assert_eq!(count(&scheme.steps(&mesh, 2)).faces, factor * count(&mesh).faces, "{file} {name}");
         }
@@ -116,6 +126,10 @@ fn flat_regular_meshes_stay_on_a_lattice() {
         ("loop.vv", "loop", Around::Triangles, 2.0),
         ("butterfly.vv", "butterfly", Around::Triangles, 2.0),
         ("sqrt3.vv", "sqrt3", Around::Triangles, 3.0),
+        ("catmull-clark.vv", "catmull_clark", Around::Quads, 2.0),
+        ("doo-sabin.vv", "doo_sabin", Around::Quads, 4.0),
+        ("quad-triangle.vv", "quad_triangle", Around::Quads, 2.0),
+        ("quad-triangle.vv", "quad_triangle", Around::Triangles, 2.0),
         ("midedge.vv", "midedge", Around::Triangles, 2.0),
         ("midedge.vv", "midedge", Around::Quads, 2.0),
         ("four-eight.vv", "four_eight", Around::Quads, 2.0),
@@ -149,7 +163,10 @@ fn interpolating_schemes_reproduce_cubics() {
 /// A step does not move limit positions, and many steps come to them.
 #[test]
 fn steps_converge_to_the_limit() {
-    for (file, rule, limit, meshes) in [("loop.vv", "loop", "loop_limit", TRIANGLES)] {
+    for (file, rule, limit, meshes) in [
+        ("loop.vv", "loop", "loop_limit", &TRIANGLES[..]),
+        ("catmull-clark.vv", "catmull_clark", "catmull_clark_limit", &QUADS),
+    ] {
         let (scheme, limit) = (Scheme::new(file, rule), Scheme::new("limit.vv", limit));
         for name in meshes {
             let mesh = shaken(&Surface::asset(name).mesh());
