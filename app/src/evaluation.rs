@@ -12,6 +12,8 @@ use vv::ir::FunctionId;
 use vv::mesh::{Mesh, close};
 use vv::stop::{Stop, Stopped};
 
+use crate::trace;
+
 /// A mesh after `start` (generation 0) or after a step, closed.
 #[derive(Debug, Clone, Default)]
 pub struct Generation {
@@ -54,9 +56,12 @@ pub fn advance(
     output: &mut dyn Output,
 ) -> Result<Generation, Failure> {
     let began = Instant::now();
+    let span = trace::span("step");
     let mut mesh = machine.run(rule, mesh, generation, settings, output)?;
+    drop(span);
     let step_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
+    let _span = trace::span("closing");
     let warnings = close::close(&mut mesh, &settings.stop).map_err(|stopped| Failure {
         kind: FailureKind::Stopped(stopped),
         diagnostic: Box::new(Diagnostic::new(vv::diagnostic::Severity::Error, None, stopped.to_string())),

@@ -12,5 +12,6 @@ pub mod library;
 pub mod render;
 pub mod scene;
 pub mod session;
+pub mod trace;
 pub mod watch;
 pub mod worker;

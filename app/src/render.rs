@@ -22,6 +22,7 @@ use std::fmt;
 
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
+use crate::trace;
 
 pub use headless::{Headless, render_image};
 pub use target::Target;
@@ -153,6 +154,7 @@ impl Renderer {
     /// # Errors
     /// If it is larger than the driver takes.
     pub fn upload(&self, scene: &Scene) -> Result<Uploaded, RenderError> {
+        let _span = trace::span("upload");
         Uploaded::check(scene, &self.device.limits())?;
         guarded(&self.device, || Uploaded::new(&self.device, &self.queue, &self.pipelines, scene, self.opengl))
     }
@@ -174,6 +176,7 @@ impl Renderer {
         style: &Style,
         tile: Tile,
     ) -> Result<(), RenderError> {
+        let _span = trace::span("drawing");
         let frame = frame::frame(scene, camera, style, tile, self.opengl);
         let layers = frame::layers(scene, style, tile.picture.scale);
         guarded(&self.device, || {

@@ -4,7 +4,7 @@ use image::RgbaImage;
 
 use super::frame::Tile;
 use super::palette::{to_linear, to_srgb};
-use super::{NoRenderer, RenderError, Renderer, Size, Target, device_descriptor};
+use super::{NoRenderer, RenderError, Renderer, Size, Target, Uploaded, device_descriptor};
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
@@ -50,6 +50,14 @@ impl Headless {
         // What no scope catches, such as a device that is lost, shows when the picture is read.
         device.on_uncaptured_error(std::sync::Arc::new(|error| log::error!("graphics: {error}")));
         Ok(Self { renderer: Renderer::new(&device, &queue, samples)? })
+    }
+
+    /// Brings a scene to the GPU.
+    ///
+    /// # Errors
+    /// If it is larger than the driver takes.
+    pub fn upload(&self, scene: &Scene) -> Result<Uploaded, RenderError> {
+        self.renderer.upload(scene)
     }
 
     /// Draws a picture.

@@ -19,7 +19,7 @@ use super::printer::Printer;
 use super::{Event, Failed, Frame, Recipe, Report, Request, Shared, lock};
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
-use crate::{files, library};
+use crate::{files, library, trace};
 
 /// The state of the worker's thread.
 pub(super) struct Bench {
@@ -150,7 +150,10 @@ impl Bench {
         {
             return;
         }
+        let span = trace::span("checking");
         let (mut compilation, files) = files::compile(&recipe.path, &recipe.text);
+        drop(span);
+        let _span = trace::span("compiling");
         let machine = compilation.program.clone().map(|p| Arc::new(Machine::new(p, Engine::Native)));
         if let Some(refusal) = machine.as_ref().and_then(|m| m.refusal()) {
             compilation.diagnostics.push(Diagnostic::new(Severity::Note, None, refusal));
@@ -164,6 +167,7 @@ impl Bench {
         if self.input.as_ref().is_some_and(|i| i.source == recipe.mesh && i.revision == revision) {
             return Ok(());
         }
+        let _span = trace::span("reading the mesh");
         let options = ReadOptions { stop: stop.clone(), ..ReadOptions::default() };
         let result = match &recipe.mesh {
             MeshSource::Empty => Ok((Mesh::new(), Vec::new())),

@@ -12,6 +12,7 @@ use vv::stop::{Stop, Stopped};
 use super::{Frame, Recipe, Request, Timings};
 use crate::evaluation::Generation;
 use crate::scene::Scene;
+use crate::trace;
 
 /// The generations of one recipe.
 pub(super) struct History {
@@ -91,10 +92,15 @@ pub(super) fn frame(
     stop: &Stop,
 ) -> Result<Frame, Stopped> {
     let began = Instant::now();
+    let span = trace::span("faces");
     let faces = faces(&generation.mesh, stop)?;
+    drop(span);
+    let span = trace::span("counting");
     let statistics = statistics(&generation.mesh, &faces, stop)?;
+    drop(span);
     let faces_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
+    let _span = trace::span("scene");
     let scene = Arc::new(Scene::new(&generation.mesh, &faces, control, stop)?);
     Ok(Frame {
         request: request.clone(),
