@@ -62,6 +62,22 @@ impl Camera {
         Self { pivot: bounds.center, distance: MARGIN * radius(bounds) / narrower.sin(), ..self }
     }
 
+    /// The four world directions that decide what [`Camera::fit_points`] gives: it needs no more points than the one that
+    /// lies farthest in each.
+    #[must_use]
+    pub fn decisive_directions(&self, aspect: f64) -> [DVec3; 4] {
+        let slope = self.slope(aspect);
+        [(1.0, 0.0, slope.x), (-1.0, 0.0, slope.x), (0.0, 1.0, slope.y), (0.0, -1.0, slope.y)]
+            .map(|direction| self.world_from_view * DVec3::from(direction))
+    }
+
+    /// How far something lies from a ray, for each unit of length from the eye, that is seen so far beside it; one is half
+    /// the height of the picture.
+    #[must_use]
+    pub fn spread(&self, beside: f64) -> f64 {
+        (self.field_of_view / 2.0).tan() * beside
+    }
+
     /// Looks from the same side so that these points just fit, with a margin: closer than [`Camera::fit`] where they fill
     /// their ball badly. Turns around the depth of `bounds`' centre from then on. Without points it is [`Camera::fit`].
     ///
@@ -70,8 +86,7 @@ impl Camera {
     /// `l = max(−x + s z)`; of the two c that x and y ask for, the greater one holds.
     #[must_use]
     pub fn fit_points(self, points: impl IntoIterator<Item = DVec3>, bounds: Sphere, aspect: f64) -> Self {
-        let upright = (self.field_of_view / 2.0).tan() / MARGIN;
-        let slope = DVec2::new(upright * aspect.max(1e-3), upright);
+        let slope = self.slope(aspect);
         let view_from_world = self.world_from_view.conjugate();
         let (mut positive, mut negative) = (DVec2::NEG_INFINITY, DVec2::NEG_INFINITY);
         for point in points {
@@ -85,6 +100,12 @@ impl Camera {
         }
         let shift = (positive - negative) / 2.0;
         Self { pivot: bounds.center + self.world_from_view * shift.extend(0.0), distance, ..self }
+    }
+
+    /// How steeply the sides of what is seen lead away from its middle, but for the margin.
+    fn slope(&self, aspect: f64) -> DVec2 {
+        let upright = (self.field_of_view / 2.0).tan() / MARGIN;
+        DVec2::new(upright * aspect.max(1e-3), upright)
     }
 
     /// The arcball: turns the view so that what is under `from` follows the pointer to `to`.

@@ -8,17 +8,25 @@
 //! ```
 
 mod part;
+mod pick;
 #[cfg(test)]
 mod tests;
+mod tree;
+
+use std::sync::{Arc, OnceLock};
 
 use glam::{DVec3, Vec3};
 
 use crate::camera::Camera;
+use crate::trace;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 use vv::stop::{Stop, Stopped};
 
+use pick::Index;
+
 pub use part::{Corner, Part, pack_color};
+pub use pick::{Near, Picked, Pointer};
 
 /// Light or dark surroundings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -97,6 +105,8 @@ pub struct Scene {
     pub control: Part,
     bounds: Sphere,
     bounds_with_control: Sphere,
+    /// What is where: of the mesh, and of the control mesh.
+    index: OnceLock<Arc<[Index; 2]>>,
 }
 
 impl Default for Scene {
@@ -109,6 +119,7 @@ impl Default for Scene {
             control: Part::default(),
             bounds,
             bounds_with_control: bounds,
+            index: OnceLock::new(),
         }
     }
 }
@@ -146,7 +157,21 @@ impl Scene {
             },
             bounds,
             bounds_with_control,
+            index: OnceLock::new(),
         })
+    }
+
+    /// Makes ready for [`Scene::pick`] and [`Scene::fit`], which else cannot look anything up. A picture does without, so
+    /// this is best done after it, on another thread. Cost: sorting the triangles, on all threads.
+    pub fn build_index(&self) {
+        let _span = trace::span("index");
+        self.index.get_or_init(|| Arc::new([Index::new(&self.mesh), Index::new(&self.control)]));
+    }
+
+    /// Whether [`Scene::build_index`] was done.
+    #[must_use]
+    pub fn is_indexed(&self) -> bool {
+        self.index.get().is_some()
     }
 
     /// A ball around what `style` shows.
@@ -161,14 +186,21 @@ impl Scene {
         self.fit(Camera::standard(self.bounds(style), aspect), style, aspect)
     }
 
-    /// `camera` looking from the same side at all that `style` shows, as close as it gets.
+    /// `camera` looking from the same side at all that `style` shows, as close as it gets. Cost: linear in the vertices
+    /// unless [`Scene::is_indexed`].
     #[must_use]
     pub fn fit(&self, camera: Camera, style: &Style, aspect: f64) -> Camera {
-        let control = style.control.then_some(&self.control);
-        let parts = std::iter::once(&self.mesh).chain(control);
-        let corners = parts.flat_map(|part| &part.corners[..part.vertex_count as usize]);
-        let points = corners.map(|corner| self.to_world(corner.position.into()));
-        camera.fit_points(points, self.bounds(style), aspect)
+        let parts = &[&self.mesh, &self.control][..if style.control { 2 } else { 1 }];
+        let world = |p: Vec3| self.to_world(p);
+        let bounds = self.bounds(style);
+        if let Some(indices) = self.index.get() {
+            let directions = camera.decisive_directions(aspect);
+            let farthest = |(part, index): (&&Part, &Index)| directions.map(|d| index.farthest(part, d));
+            let points = parts.iter().zip(indices.iter()).flat_map(farthest).flatten();
+            return camera.fit_points(points.map(world), bounds, aspect);
+        }
+        let corners = parts.iter().flat_map(|part| &part.corners[..part.vertex_count as usize]);
+        camera.fit_points(corners.map(|corner| world(corner.position.into())), bounds, aspect)
     }
 
     /// World position of a point of the scene.

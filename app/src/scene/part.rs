@@ -1,12 +1,18 @@
 //! One mesh in arrays.
 
-use glam::{DVec3, Vec2, Vec3};
+mod edges;
+mod pack;
+
+use glam::DVec3;
 
 use vv::io::COLOR;
 use vv::mesh::faces::Faces;
 use vv::mesh::triangulate::{Triangulator, newell};
 use vv::mesh::{Mesh, Values, Vertex};
 use vv::stop::{Stop, Stopped};
+
+use edges::{Sides, Walked};
+pub use pack::{pack, pack_color};
 
 /// A vertex as the GPU reads it: five words.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -37,6 +43,13 @@ pub struct Part {
     pub lonely_count: u32,
     /// Three corners each, counter-clockwise seen from outside; the first speaks for the face.
     pub triangles: Vec<[u32; 3]>,
+    /// The number of the face of each triangle; those of a face follow each other.
+    pub triangle_faces: Vec<u32>,
+    /// Which sides of each triangle are edges, not cuts through a face: bit 0 for the side from the first corner to the
+    /// second, and so on.
+    pub triangle_sides: Vec<u8>,
+    /// The vertex of each corner.
+    pub owners: Vec<Vertex>,
     /// The vertices at the ends of each edge: edges between two faces first, then those of the boundary and those
     /// without any face.
     pub edges: Vec<[u32; 2]>,
@@ -58,27 +71,40 @@ pub(super) enum Fill {
 const NONE: u32 = u32::MAX;
 
 impl Part {
+    /// The vertex at a corner.
+    #[must_use]
+    pub fn vertex(&self, corner: u32) -> Option<Vertex> {
+        self.owners.get(corner as usize).copied()
+    }
+
     pub(super) fn new(
         mesh: &Mesh,
         faces: &Faces,
-        to_scene: &dyn Fn(DVec3) -> Option<DVec3>,
+        to_scene: &(dyn Fn(DVec3) -> Option<DVec3> + Sync),
         fill: Fill,
         stop: &Stop,
     ) -> Result<Self, Stopped> {
         let mut part = Self::default();
         let places = part.add_vertices(mesh, to_scene);
-        part.add_edges(mesh, faces, &places, stop)?;
+        let mut lines = Self::default();
+        // What the one writes the other does not read.
+        let (edges, faces) = rayon::join(
+            || lines.add_edges(mesh, faces, &places, stop),
+            || if fill == Fill::Faces { part.add_faces(faces, &places, stop) } else { Ok(()) },
+        );
+        edges.and(faces)?;
         if fill == Fill::Faces {
-            let further = part.add_faces(faces, &places, stop)?;
-            part.add_colors(mesh, &places, &further);
+            part.add_colors(mesh);
         }
-        Ok(part)
+        let Self { edges, inner_edge_count, mean_edge, longest_inner_edge, .. } = lines;
+        Ok(Self { edges, inner_edge_count, mean_edge, longest_inner_edge, ..part })
     }
 
     /// Fills in the corners that stand for vertices; returns which stands for which vertex.
-    fn add_vertices(&mut self, mesh: &Mesh, to_scene: &dyn Fn(DVec3) -> Option<DVec3>) -> Places {
+    fn add_vertices(&mut self, mesh: &Mesh, to_scene: &(dyn Fn(DVec3) -> Option<DVec3> + Sync)) -> Places {
         let mut places = Places { of: vec![NONE; mesh.vertex_count()], positions: Vec::new() };
         places.positions.reserve(mesh.vertex_count());
+        self.owners.reserve(mesh.vertex_count());
         for lonely in [true, false] {
             for (v, &p) in mesh.vertices().zip(mesh.positions()) {
                 if (mesh.ring(v).valence() == 0) == lonely
@@ -86,6 +112,7 @@ impl Part {
                 {
                     places.of[v.index()] = index(places.positions.len());
                     places.positions.push(p);
+                    self.owners.push(v);
                 }
             }
             if lonely {
@@ -102,7 +129,9 @@ impl Part {
     fn add_edges(&mut self, mesh: &Mesh, faces: &Faces, places: &Places, stop: &Stop) -> Result<(), Stopped> {
         let mut outer = Vec::new();
         let (mut total, mut longest) = (0.0, 0.0f64);
-        for_each_edge(mesh, faces, stop, |p, q, sides| {
+        let walked = Walked::new(mesh, faces, stop)?;
+        self.edges.reserve(faces.corners().len() / 2);
+        walked.for_each_edge(mesh, stop, |p, q, sides| {
             let (Some(a), Some(b)) = (places.get(p), places.get(q)) else { return };
             let length = places.positions[a as usize].distance(places.positions[b as usize]);
             total += length;
@@ -120,53 +149,39 @@ impl Part {
         Ok(())
     }
 
-    /// Triangles, and normals of faces and vertices. Returns the vertex for which each further corner stands, by its
-    /// corner.
-    fn add_faces(&mut self, faces: &Faces, places: &Places, stop: &Stop) -> Result<Vec<u32>, Stopped> {
-        let mut normals = vec![DVec3::ZERO; self.corners.len()];
-        let mut speaks = vec![false; self.corners.len()];
-        let mut extra: Vec<u32> = Vec::new(); // the vertex of each further corner
-        let mut triangulator = Triangulator::default();
-        let (mut points, mut ends, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-        let mut speakers: Vec<u32> = Vec::new();
-        for face in faces.iter().filter(|f| f.len() > 2) {
+    /// Triangles, and normals of faces and vertices.
+    fn add_faces(&mut self, faces: &Faces, places: &Places, stop: &Stop) -> Result<(), Stopped> {
+        self.corners.reserve(faces.len().saturating_sub(self.corners.len()));
+        let triangles = faces.corners().len().saturating_sub(2 * faces.len());
+        self.triangles.reserve(triangles);
+        self.triangle_faces.reserve(triangles);
+        self.triangle_sides.reserve(triangles);
+        let mut filling = Filling {
+            normals: vec![DVec3::ZERO; self.corners.len()],
+            speaks: vec![false; self.corners.len()],
+            extra: Vec::new(),
+            part: self,
+        };
+        let mut polygon = Polygon::default();
+        for (number, face) in (0..).zip(faces.iter()) {
             stop.check()?;
-            ends.clear();
-            ends.extend(face.iter().filter_map(|&v| places.get(v)));
-            if ends.len() < face.len() {
-                continue; // a corner that cannot be drawn
-            }
-            points.clear();
-            points.extend(ends.iter().map(|&i| places.positions[i as usize]));
-            let area = newell(&points);
-            let normal = area.normalize_or_zero();
-            triangulator.triangles(&points, area, &mut triangles);
-            add_corner_normals(&points, &ends, normal, &mut normals);
-
-            // A corner of each triangle speaks for this face: one that does already, one that speaks for none, a new
-            // one. Fans need one in all.
-            speakers.clear();
-            speakers.resize(ends.len(), NONE);
-            let packed = pack(normal.as_vec3());
-            for t in &triangles {
-                let ready = t.iter().position(|&i| speakers[i as usize] != NONE);
-                let first = ready.or_else(|| t.iter().position(|&i| !speaks[ends[i as usize] as usize])).unwrap_or(0);
-                let [a, b, c] = [t[first], t[(first + 1) % 3], t[(first + 2) % 3]].map(|i| i as usize);
-                if speakers[a] == NONE {
-                    let vertex = ends[a] as usize;
-                    let corner = if speaks[vertex] { self.corners.len() } else { vertex };
-                    if corner == vertex {
-                        speaks[vertex] = true;
-                    } else {
-                        extra.push(ends[a]);
-                        self.corners.push(self.corners[vertex]);
+            match *face {
+                [] | [_] | [_, _] => {}
+                [a, b, c] => {
+                    if let (Some(a), Some(b), Some(c)) = (places.get(a), places.get(b), places.get(c)) {
+                        filling.add_triangle(number, [a, b, c], places);
                     }
-                    self.corners[corner].face_normal = packed;
-                    speakers[a] = index(corner);
                 }
-                self.triangles.push([speakers[a], ends[b], ends[c]]);
+                _ => {
+                    polygon.ends.clear();
+                    polygon.ends.extend(face.iter().filter_map(|&v| places.get(v)));
+                    if polygon.ends.len() == face.len() {
+                        filling.add_polygon(number, &mut polygon, places);
+                    }
+                }
             }
         }
+        let Filling { normals, extra, .. } = filling;
         let (own, further) = self.corners.split_at_mut(normals.len());
         for (corner, normal) in own.iter_mut().zip(&normals) {
             corner.normal = normal.try_normalize().map_or(0, |n| pack(n.as_vec3()));
@@ -174,22 +189,121 @@ impl Part {
         for (corner, &vertex) in further.iter_mut().zip(&extra) {
             corner.normal = own[vertex as usize].normal;
         }
-        Ok(extra)
+        let owners = extra.iter().filter_map(|&vertex| self.vertex(vertex)).collect::<Vec<_>>();
+        self.owners.extend(owners);
+        Ok(())
     }
 
-    /// Colours of vertices, if they have some, and of the further corners.
-    fn add_colors(&mut self, mesh: &Mesh, places: &Places, further: &[u32]) {
+    /// Colours of the corners, if the vertices have some.
+    fn add_colors(&mut self, mesh: &Mesh) {
         let column = mesh.vertex_properties().iter().find_map(|property| match &property.values {
             Values::Vec(colors) if property.name == COLOR => Some(colors),
             _ => None,
         });
         let Some(column) = column else { return };
-        self.colors = vec![0; self.vertex_count as usize];
-        for (&place, &color) in places.of.iter().zip(column.iter()).filter(|&(&place, _)| place != NONE) {
-            self.colors[place as usize] = pack_color(color);
+        let color = |v: &Vertex| column.get(v.index()).map_or(0, |&color| pack_color(color));
+        self.colors = self.owners.iter().map(color).collect();
+    }
+}
+
+/// Faces on their way into a part.
+struct Filling<'a> {
+    part: &'a mut Part,
+    /// Sums for each vertex.
+    normals: Vec<DVec3>,
+    /// Whether the corner of each vertex speaks for a face.
+    speaks: Vec<bool>,
+    /// The vertex of each further corner.
+    extra: Vec<u32>,
+}
+
+/// What a polygon with more than three corners needs; kept from one to the next.
+#[derive(Default)]
+struct Polygon {
+    ends: Vec<u32>,
+    points: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    speakers: Vec<u32>,
+    triangulator: Triangulator,
+}
+
+impl Filling<'_> {
+    fn add_triangle(&mut self, face: u32, ends: [u32; 3], places: &Places) {
+        let [a, b, c] = ends.map(|i| places.positions[i as usize]);
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let area = ca.cross(ab);
+        let squares = [ab, bc, ca].map(DVec3::length_squared);
+        let weights = [squares[2] * squares[0], squares[0] * squares[1], squares[1] * squares[2]];
+        for (end, weight) in ends.into_iter().zip(weights) {
+            add_corner_normal(&mut self.normals[end as usize], area, weight);
         }
-        let colors = &mut self.colors;
-        further.iter().for_each(|&vertex| colors.push(colors[vertex as usize]));
+        let normal = pack(area.normalize_or_zero().as_vec3());
+        let first = ends.iter().position(|&end| !self.speaks[end as usize]).unwrap_or(0);
+        let [a, b, c] = [ends[first], ends[(first + 1) % 3], ends[(first + 2) % 3]];
+        let speaker = self.speaker(a, normal);
+        self.push([speaker, b, c], face, 0b111);
+    }
+
+    fn add_polygon(&mut self, face: u32, polygon: &mut Polygon, places: &Places) {
+        let Polygon { ends, points, triangles, speakers, triangulator } = polygon;
+        points.clear();
+        points.extend(ends.iter().map(|&i| places.positions[i as usize]));
+        let area = newell(points);
+        triangulator.triangles(points, area, triangles);
+        let normal = area.normalize_or_zero();
+        let n = points.len();
+        for i in 0..n {
+            let p = points[i];
+            let (before, after) = (if i == 0 { n - 1 } else { i - 1 }, if i + 1 == n { 0 } else { i + 1 });
+            let (a, b) = (points[before] - p, points[after] - p);
+            let weight = a.length_squared() * b.length_squared();
+            add_corner_normal(&mut self.normals[ends[i] as usize], a.cross(b).length() * normal, weight);
+        }
+        // A corner of each triangle speaks for this face: one that does already, one that speaks for none, a new one. Fans
+        // need one in all.
+        speakers.clear();
+        speakers.resize(n, NONE);
+        let packed = pack(normal.as_vec3());
+        for t in triangles {
+            let ready = t.iter().position(|&i| speakers[i as usize] != NONE);
+            let first = ready.or_else(|| t.iter().position(|&i| !self.speaks[ends[i as usize] as usize])).unwrap_or(0);
+            let [a, b, c] = [t[first], t[(first + 1) % 3], t[(first + 2) % 3]].map(|i| i as usize);
+            if speakers[a] == NONE {
+                speakers[a] = self.speaker(ends[a], packed);
+            }
+            let follows = |i: usize, j: usize| u8::from(j == if i + 1 == n { 0 } else { i + 1 });
+            let sides = follows(a, b) | follows(b, c) << 1 | follows(c, a) << 2;
+            self.push([speakers[a], ends[b], ends[c]], face, sides);
+        }
+    }
+
+    fn push(&mut self, triangle: [u32; 3], face: u32, sides: u8) {
+        self.part.triangles.push(triangle);
+        self.part.triangle_faces.push(face);
+        self.part.triangle_sides.push(sides);
+    }
+
+    /// A corner at a vertex that speaks for a face with this normal: its own, or a further one if that speaks already.
+    fn speaker(&mut self, vertex: u32, face_normal: u32) -> u32 {
+        let corners = &mut self.part.corners;
+        if std::mem::replace(&mut self.speaks[vertex as usize], true) {
+            self.extra.push(vertex);
+            corners.push(Corner { face_normal, ..corners[vertex as usize] });
+            return index(corners.len() - 1);
+        }
+        corners[vertex as usize].face_normal = face_normal;
+        vertex
+    }
+}
+
+/// Adds the normal of a corner, weighted by `sin α / (|a| |b|)`, where `a` and `b` are the sides that meet there and α is
+/// the angle between them. With these weights normals are exact on a sphere, however its faces are shaped (N. Max,
+/// "Weights for computing vertex normals from facet normals", 1999). `product` is a normal as long as `a × b`, `squares`
+/// is `|a|² |b|²`.
+fn add_corner_normal(normal: &mut DVec3, product: DVec3, squares: f64) {
+    let weight = squares.recip();
+    if weight.is_finite() {
+        *normal += weight * product;
     }
 }
 
@@ -203,117 +317,6 @@ impl Places {
     fn get(&self, v: Vertex) -> Option<u32> {
         self.of.get(v.index()).copied().filter(|&i| i != NONE)
     }
-}
-
-/// On how many sides an edge has a face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sides {
-    Both,
-    OneOrNone,
-}
-
-/// Each pair of neighbours once, in order of the older, then the younger vertex. It has a face on one side if some face
-/// walks it from the older to the younger, on the other if some face walks it back.
-///
-/// Collects what rings and faces say of each pair, sorted into one bucket for each older vertex: linear, but for the
-/// sorting of large buckets.
-fn for_each_edge(
-    mesh: &Mesh,
-    faces: &Faces,
-    stop: &Stop,
-    mut edge: impl FnMut(Vertex, Vertex, Sides),
-) -> Result<(), Stopped> {
-    const THERE: u64 = 1;
-    const BACK: u64 = 2;
-    const FLAGS: u32 = 2; // bits below the younger vertex
-    let n = mesh.vertex_count();
-    let each = |found: &mut dyn FnMut(Vertex, Vertex, u64)| -> Result<(), Stopped> {
-        let mut pair = |p: Vertex, q: Vertex, walked| match (p < q, walked) {
-            _ if p == q || p.index().max(q.index()) >= n => {}
-            (true, false) => found(p, q, 0),
-            (false, false) => found(q, p, 0),
-            (true, true) => found(p, q, THERE),
-            (false, true) => found(q, p, BACK),
-        };
-        for p in mesh.vertices() {
-            stop.check()?;
-            mesh.ring(p).vertices().for_each(|q| pair(p, q, false));
-        }
-        for face in faces.iter().filter(|f| f.len() > 2) {
-            stop.check()?;
-            let mut before = face[face.len() - 1];
-            for &v in face {
-                pair(before, v, true);
-                before = v;
-            }
-        }
-        Ok(())
-    };
-    let mut ends = vec![0usize; n];
-    each(&mut |older, _, _| ends[older.index()] += 1)?;
-    let mut sum = 0;
-    for end in &mut ends {
-        sum += std::mem::replace(end, sum); // where the bucket starts; moves on to its end as it is filled
-    }
-    let mut entries = vec![0u64; sum];
-    each(&mut |older, younger, flags| {
-        let end = &mut ends[older.index()];
-        entries[*end] = ((younger.index() as u64) << FLAGS) | flags;
-        *end += 1;
-    })?;
-    let mut start = 0;
-    for (p, &end) in mesh.vertices().zip(&ends) {
-        stop.check()?;
-        let bucket = &mut entries[start..end];
-        bucket.sort_unstable();
-        for same in bucket.chunk_by(|a, b| a >> FLAGS == b >> FLAGS) {
-            let flags = same.iter().fold(0, |flags, entry| flags | (entry & (THERE | BACK)));
-            if let Some(q) = Vertex::from_index((same[0] >> FLAGS) as usize) {
-                edge(p, q, if flags == THERE | BACK { Sides::Both } else { Sides::OneOrNone });
-            }
-        }
-        start = end;
-    }
-    Ok(())
-}
-
-/// Adds a polygon's normal to its corners, weighted by `sin α / (|a| |b|)`, where `a` and `b` are the sides that meet
-/// at the corner and α is the angle between them. With these weights normals are exact on a sphere, however its faces
-/// are shaped (N. Max, "Weights for computing vertex normals from facet normals", 1999).
-fn add_corner_normals(points: &[DVec3], ends: &[u32], normal: DVec3, normals: &mut [DVec3]) {
-    let n = points.len();
-    for i in 0..n {
-        let p = points[i];
-        let (a, b) = (points[if i == 0 { n - 1 } else { i - 1 }] - p, points[if i + 1 == n { 0 } else { i + 1 }] - p);
-        let weight = a.cross(b).length() / (a.length_squared() * b.length_squared());
-        if weight.is_finite() {
-            normals[ends[i] as usize] += weight * normal;
-        }
-    }
-}
-
-/// Packs a unit vector into two signed 16-bit numbers: the octahedron around the unit ball, unfolded onto a square.
-/// Never gives the zero word.
-#[must_use]
-pub fn pack(n: Vec3) -> u32 {
-    let n = n / n.abs().element_sum().max(f32::MIN_POSITIVE);
-    let square = if n.z >= 0.0 { Vec2::new(n.x, n.y) } else { (1.0 - Vec2::new(n.y, n.x).abs()) * sign(n.truncate()) };
-    let [x, y] = square.to_array().map(|c| (c.clamp(-1.0, 1.0) * 32767.0).round() as i16);
-    match (u32::from(y.cast_unsigned()) << 16) | u32::from(x.cast_unsigned()) {
-        0 => 1,
-        word => word,
-    }
-}
-
-/// Packs red, green and blue from 0 to 1 (sRGB) into bytes, red lowest. What is no number is 0.
-#[must_use]
-pub fn pack_color(color: DVec3) -> u32 {
-    let [r, g, b] = color.to_array().map(|c| (c * 255.0).round() as u8);
-    u32::from_le_bytes([r, g, b, u8::MAX])
-}
-
-fn sign(v: Vec2) -> Vec2 {
-    Vec2::select(v.cmpge(Vec2::ZERO), Vec2::ONE, Vec2::NEG_ONE)
 }
 
 /// Meshes are limited to `u32` handles, so this loses nothing.
