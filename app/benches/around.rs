@@ -13,9 +13,10 @@ use std::time::{Duration, Instant};
 
 use app::document::MeshSource;
 use app::render::Headless;
-use app::scene::{Scene, Style};
+use app::scene::{Pointer, Scene, Style};
 use app::worker::{Event, Frame, Recipe, Request, Worker};
 use app::{evaluation, files, library, trace};
+use glam::DVec2;
 use vv::engine::{Engine, Machine, Settings};
 use vv::io::{Format, ReadOptions, read, write};
 use vv::mesh::Mesh;
@@ -77,13 +78,29 @@ fn million() {
     phase("statistics", || statistics(&mesh, &found, &stop).unwrap());
     phase("snapshot", || mesh.clone());
     let scene = phase("scene", || Scene::new(&mesh, &found, Some((&control, &control_faces)), &stop).unwrap());
+    phase("index, after the picture", || {
+        let scene = scene.clone();
+        scene.build_index();
+        scene
+    });
+    phase("fit before the index", || scene.standard_view(&Style::default(), 1.6));
+    scene.build_index();
     phase("fit", || scene.standard_view(&Style::default(), 1.6));
+    let camera = scene.standard_view(&Style::default(), 1.6);
+    let pointer =
+        |x: f64, y: f64| Pointer { ray: camera.ray(DVec2::new(x, y)), spread: camera.spread(0.02), opaque: true };
+    phase("picking once, inside", || scene.pick(&pointer(0.1, 0.2)).unwrap());
+    phase("picking a thousand times", || {
+        (0..1000)
+            .filter(|&i| scene.pick(&pointer(f64::from(i % 40) / 20.0 - 1.0, f64::from(i / 40) / 12.5 - 1.0)).is_some())
+            .count()
+    });
     match Headless::new(4) {
         Ok(headless) => drop(phase("upload", || headless.upload(&scene).unwrap())),
         Err(error) => println!("{:>28}  {error}", "upload"),
     }
-    phase("export, OBJ", || write(&mesh, &found, Format::Obj));
-    phase("export, OFF", || write(&mesh, &found, Format::Off));
+    phase("export, OBJ", || write(&mesh, &found, Format::Obj).unwrap());
+    phase("export, OFF", || write(&mesh, &found, Format::Off).unwrap());
 }
 
 /// From a changed text to the frame that the window shows: a mesh of some thousand faces, three steps.
@@ -95,9 +112,9 @@ fn edit() {
     let path = folder.join("control.obj");
     let control = refined(&machine("loop.vv"), shipped("tetrapod.obj"), 2);
     let found = faces(&control, &Stop::new()).unwrap();
-    std::fs::write(&path, write(&control, &found, Format::Obj)).unwrap();
+    std::fs::write(&path, write(&control, &found, Format::Obj).unwrap()).unwrap();
     let (waker, awake) = mpsc::channel();
-    let mut worker = Worker::start(evaluation::machine_limits(), 2 << 30, move || drop(waker.send(()))).unwrap();
+    let mut worker = Worker::start(evaluation::machine_limits(), 2 << 30, move || _ = waker.send(())).unwrap();
     let headless = Headless::new(4).ok();
     let mut rows: BTreeMap<&'static str, Vec<Duration>> = BTreeMap::new();
     let mut last = 0;

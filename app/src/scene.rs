@@ -168,6 +168,13 @@ impl Scene {
         self.index.get_or_init(|| Arc::new([Index::new(&self.mesh), Index::new(&self.control)]));
     }
 
+    /// Whether [`Scene::fit`] takes no time that one would notice.
+    #[must_use]
+    pub fn fits_at_once(&self) -> bool {
+        const FEW: usize = 200_000;
+        self.is_indexed() || self.mesh.owners.len() + self.control.owners.len() <= FEW
+    }
+
     /// Whether [`Scene::build_index`] was done.
     #[must_use]
     pub fn is_indexed(&self) -> bool {

@@ -195,10 +195,10 @@ impl Worker {
     ///
     /// # Errors
     /// When the system gives no thread.
-    pub fn start(limits: Limits, memory: usize, wake: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+    pub fn start(limits: Limits, memory: usize, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let shared = Arc::new(Shared { slot: Mutex::default(), filled: Condvar::new(), console: Mutex::default() });
         let (sender, reports) = mpsc::channel();
-        let bench = Bench::new(Arc::clone(&shared), sender, Box::new(wake), limits, memory);
+        let bench = Bench::new(Arc::clone(&shared), sender, Arc::new(wake), limits, memory);
         let thread = std::thread::Builder::new()
             .name("evaluation".to_owned())
             .stack_size(8 << 20)

@@ -10,16 +10,16 @@ use eframe::egui::{
     Vec2, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use vv::diagnostic::Severity;
 
 use super::picture::Picture;
 use super::theme;
 use super::widgets::{grouped, seconds};
-use crate::camera::{Camera, Ray, picture_point};
+use crate::camera::{Camera, picture_point};
 use crate::command::Command;
 use crate::render::{RenderError, Size};
-use crate::scene::{Scene, Style, Theme};
+use crate::scene::{Pointer, Style, Theme};
 use crate::session::{Session, Stale};
 use crate::worker::Frame;
 
@@ -30,6 +30,9 @@ pub const HANDS: &[(&str, &str)] = &[
     ("wheel, pinch", "zoom to the pointer"),
     ("double click", "turn around this point"),
 ];
+
+/// Points around the pointer within which edges and vertices are meant, too.
+const NEAR: f32 = 6.0;
 
 /// The panel's own state.
 pub struct Viewport {
@@ -61,7 +64,7 @@ impl Viewport {
         let style = Style { theme: theme_of(ui), ..session.document.style };
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
-        if session.fit && !session.is_busy() {
+        if session.fit && !session.is_busy() && frame.scene.fits_at_once() {
             session.fit = false;
             camera = frame.scene.fit(camera, &style, size.aspect());
             commands.push(Command::SetCamera(camera));
@@ -114,7 +117,8 @@ fn hands(ui: &Ui, response: &Response, rect: Rect, camera: Camera, frame: &Frame
     }
     let pointer = response.hover_pos()?;
     if response.double_clicked() {
-        let pivot = pick(&frame.scene, camera.ray(place(pointer)))?;
+        let spread = camera.spread(f64::from(2.0 * NEAR / rect.height()));
+        let pivot = frame.scene.pick(&Pointer { ray: camera.ray(place(pointer)), spread, opaque: true })?.point;
         // The eye stays where it is in the direction it looks; only what it turns around changes.
         return Some(Camera { pivot, ..camera });
     }
@@ -124,29 +128,6 @@ fn hands(ui: &Ui, response: &Response, rect: Rect, camera: Camera, frame: &Frame
     }
     let factor = (-f64::from(scroll) / 300.0).exp() / f64::from(pinch);
     Some(camera.zoom(place(pointer), factor, frame.scene.bounds(style)))
-}
-
-/// Where a ray first meets the surface.
-fn pick(scene: &Scene, ray: Ray) -> Option<DVec3> {
-    let part = &scene.mesh;
-    let point = |i: u32| part.corners.get(i as usize).map(|c| scene.to_world(c.position.into()));
-    let mut nearest: Option<f64> = None;
-    for &[a, b, c] in &part.triangles {
-        let (Some(a), Some(b), Some(c)) = (point(a), point(b), point(c)) else { continue };
-        // Möller and Trumbore, "Fast, minimum storage ray–triangle intersection", 1997.
-        let (ab, ac) = (b - a, c - a);
-        let p = ray.direction.cross(ac);
-        let determinant = ab.dot(p);
-        let from = ray.origin - a;
-        let u = from.dot(p) / determinant;
-        let q = from.cross(ab);
-        let v = ray.direction.dot(q) / determinant;
-        let t = ac.dot(q) / determinant;
-        if u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && nearest.is_none_or(|n| t < n) {
-            nearest = Some(t);
-        }
-    }
-    nearest.map(|t| ray.origin + t * ray.direction)
 }
 
 /// What stands over the picture.

@@ -48,6 +48,8 @@ pub struct Part {
     /// Which sides of each triangle are edges, not cuts through a face: bit 0 for the side from the first corner to the
     /// second, and so on.
     pub triangle_sides: Vec<u8>,
+    /// Whether there are triangles of all faces.
+    pub(super) all_filled: bool,
     /// The vertex of each corner.
     pub owners: Vec<Vertex>,
     /// The vertices at the ends of each edge: edges between two faces first, then those of the boundary and those
@@ -163,13 +165,15 @@ impl Part {
             part: self,
         };
         let mut polygon = Polygon::default();
+        let mut filled = 0;
         for (number, face) in (0..).zip(faces.iter()) {
             stop.check()?;
             match *face {
-                [] | [_] | [_, _] => {}
+                [] | [_] | [_, _] => filled += 1,
                 [a, b, c] => {
                     if let (Some(a), Some(b), Some(c)) = (places.get(a), places.get(b), places.get(c)) {
                         filling.add_triangle(number, [a, b, c], places);
+                        filled += 1;
                     }
                 }
                 _ => {
@@ -177,11 +181,13 @@ impl Part {
                     polygon.ends.extend(face.iter().filter_map(|&v| places.get(v)));
                     if polygon.ends.len() == face.len() {
                         filling.add_polygon(number, &mut polygon, places);
+                        filled += 1;
                     }
                 }
             }
         }
         let Filling { normals, extra, .. } = filling;
+        self.all_filled = filled == faces.len();
         let (own, further) = self.corners.split_at_mut(normals.len());
         for (corner, normal) in own.iter_mut().zip(&normals) {
             corner.normal = normal.try_normalize().map_or(0, |n| pack(n.as_vec3()));

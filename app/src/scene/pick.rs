@@ -1,5 +1,8 @@
 //! What lies under the pointer: found on the window's thread, in time that hardly grows with the mesh.
 
+#[cfg(test)]
+mod tests;
+
 use glam::{DVec3, Vec3};
 use vv::mesh::Vertex;
 
@@ -43,8 +46,8 @@ pub struct Near<T> {
     pub point: DVec3,
 }
 
-/// Finds things of a part by where they are: its triangles, then the edges that do not lie between two faces, then the
-/// vertices without edges.
+/// Finds things of a part by where they are: its triangles, then the edges that are sides of none, then the vertices
+/// without edges.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     tree: Tree,
@@ -53,8 +56,7 @@ pub(super) struct Index {
 impl Index {
     /// Cost: sorting the triangles, on all threads.
     pub fn new(part: &Part) -> Self {
-        let count =
-            part.triangles.len() + part.edges.len() - part.inner_edge_count as usize + part.lonely_count as usize;
+        let count = part.triangles.len() + loose_edges(part).len() + part.lonely_count as usize;
         Self {
             tree: Tree::new(count, |thing| {
                 ends(part, thing).iter().fold(Bounds::NOTHING, |b, &i| b.with(place(part, i)))
@@ -86,10 +88,17 @@ fn ends(part: &Part, thing: usize) -> [u32; 3] {
         return triangle;
     }
     let thing = thing - part.triangles.len();
-    match part.edges.get(part.inner_edge_count as usize + thing) {
+    let edges = loose_edges(part);
+    match edges.get(thing) {
         Some(&[a, b]) => [a, b, b],
-        None => [(thing - (part.edges.len() - part.inner_edge_count as usize)) as u32; 3],
+        None => [(thing - edges.len()) as u32; 3],
     }
+}
+
+/// The edges that are perhaps no side of a triangle.
+fn loose_edges(part: &Part) -> &[[u32; 2]] {
+    let sides = if part.all_filled { part.inner_edge_count as usize } else { 0 };
+    part.edges.get(sides..).unwrap_or(&[])
 }
 
 fn place(part: &Part, corner: u32) -> Vec3 {

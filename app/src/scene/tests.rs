@@ -7,15 +7,15 @@ use vv::mesh::Vertex;
 use vv::mesh::faces::faces;
 use vv::stop::Stop;
 
-const OCTAHEDRON: &str = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n\
+pub(super) const OCTAHEDRON: &str = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n\
                           f 3 5 1\nf 3 1 6\nf 3 6 2\nf 3 2 5\nf 4 1 5\nf 4 6 1\nf 4 2 6\nf 4 5 2\n";
-const CUBE: &str = "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n\
+pub(super) const CUBE: &str = "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\n\
                     f 1 2 3 4\nf 6 5 8 7\nf 5 1 4 8\nf 2 6 7 3\nf 5 6 2 1\nf 4 3 7 8\n";
 const TWO_TRIANGLES: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 /// A triangle and, beside it, an arrow head with five corners that all speak for something already.
-const ARROW: &str = "v 0 0 0\nv 4 -2 0\nv 3 0 0\nv 4 2 0\nv 0 4 0\nf 1 2 3 4 5\n";
+pub(super) const ARROW: &str = "v 0 0 0\nv 4 -2 0\nv 3 0 0\nv 4 2 0\nv 0 4 0\nf 1 2 3 4 5\n";
 
-fn mesh(obj: &str) -> Mesh {
+pub(super) fn mesh(obj: &str) -> Mesh {
     read(obj.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap().0
 }
 

@@ -25,7 +25,7 @@ use crate::{files, library, trace};
 pub(super) struct Bench {
     shared: Arc<Shared>,
     reports: Sender<Report>,
-    wake: Box<dyn Fn() + Send>,
+    wake: Arc<dyn Fn() + Send + Sync>,
     limits: Limits,
     /// Bytes that kept generations may use.
     memory: usize,
@@ -57,7 +57,7 @@ impl Bench {
     pub(super) fn new(
         shared: Arc<Shared>,
         reports: Sender<Report>,
-        wake: Box<dyn Fn() + Send>,
+        wake: Arc<dyn Fn() + Send + Sync>,
         limits: Limits,
         memory: usize,
     ) -> Self {
@@ -105,9 +105,22 @@ impl Bench {
     }
 
     fn report(&self, ticket: u64, event: Event) {
+        let scene = match &event {
+            Event::Finished(frame) | Event::Preview(frame) => Some(Arc::clone(&frame.scene)),
+            _ => None,
+        };
         // Nobody listens any more: the window closes.
         let _ = self.reports.send(Report { ticket, event });
         (self.wake)();
+        // The picture comes first; what is needed to point at it comes after it, and no request waits for that.
+        if let Some(scene) = scene.filter(|scene| !scene.is_indexed()) {
+            let wake = Arc::clone(&self.wake);
+            rayon::spawn(move || {
+                scene.build_index();
+                drop(scene);
+                wake();
+            });
+        }
     }
 
     fn serve(&mut self, ticket: u64, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Failed> {
