@@ -60,6 +60,8 @@ const ORACLES: &[Oracle] = &[
         }),
         ..oracle("openmesh/catmull-clark", "catmull-clark.vv")
     },
+    Oracle { with: Some("creases"), ..oracle("opensubdiv/catmull-clark-creases", "catmull-clark-creases.vv") },
+    Oracle { with: Some("corners"), ..oracle("opensubdiv/catmull-clark-corners", "catmull-clark-creases.vv") },
     oracle("cgal/doo-sabin", "doo-sabin.vv"),
 ];
 
@@ -86,6 +88,11 @@ fn sqrt3() {
 #[test]
 fn catmull_clark() {
     check("catmull-clark.vv");
+}
+
+#[test]
+fn catmull_clark_creases() {
+    check("catmull-clark-creases.vv");
 }
 
 #[test]
