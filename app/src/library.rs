@@ -22,6 +22,7 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "butterfly.vv", text: include_str!("../../assets/programs/butterfly.vv") },
     Shipped { name: "sqrt3.vv", text: include_str!("../../assets/programs/sqrt3.vv") },
     Shipped { name: "catmull-clark.vv", text: include_str!("../../assets/programs/catmull-clark.vv") },
+    Shipped { name: "catmull-clark-creases.vv", text: include_str!("../../assets/programs/catmull-clark-creases.vv") },
     Shipped { name: "doo-sabin.vv", text: include_str!("../../assets/programs/doo-sabin.vv") },
     Shipped { name: "quad-triangle.vv", text: include_str!("../../assets/programs/quad-triangle.vv") },
     Shipped { name: "midedge.vv", text: include_str!("../../assets/programs/midedge.vv") },

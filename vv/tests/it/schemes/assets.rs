@@ -28,6 +28,7 @@ enum Class {
 const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("butterfly.vv", None, Class::Triangles),
     ("catmull-clark.vv", None, Class::Polygons),
+    ("catmull-clark-creases.vv", None, Class::Polygons),
     ("conway.vv", Some("kis"), Class::Polygons),
     ("conway.vv", Some("gyro"), Class::Polygons),
     ("conway.vv", Some("truncate"), Class::Polygons),

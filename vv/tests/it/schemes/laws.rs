@@ -24,6 +24,7 @@ fn refining() -> Vec<(&'static str, &'static str, &'static [&'static str])> {
     vec![
         ("loop.vv", "loop", &TRIANGLES),
         ("loop-creases.vv", "loop_creases", &TRIANGLES),
+        ("catmull-clark-creases.vv", "catmull_clark_creases", &QUADS),
         ("butterfly.vv", "butterfly", &TRIANGLES),
         ("sqrt3.vv", "sqrt3", &TRIANGLES),
         ("catmull-clark.vv", "catmull_clark", &QUADS),
