@@ -63,6 +63,14 @@ impl VertexSet {
         &self.0.order
     }
 
+    /// The first and the last member of a set that is all vertices between them, in order; `None` for another set or an
+    /// empty one.
+    pub(crate) fn span(&self) -> Option<(Vertex, Vertex)> {
+        let (Some(&Some(first)), Some(&Some(last))) = (self.0.order.first(), self.0.order.last()) else { return None };
+        let all = self.0.places.is_none() && last.index() - first.index() + 1 == self.0.order.len();
+        all.then_some((first, last))
+    }
+
     /// The members of a set that is one ascending array and not shared: a larger vertex may be pushed.
     pub(crate) fn ascending(&mut self) -> Option<&mut Vec<Option<Vertex>>> {
         let members = Arc::get_mut(&mut self.0)?;
@@ -123,6 +131,11 @@ impl VertexSet {
     pub fn merge(&mut self, other: &Self) {
         if self.is_empty() {
             self.clone_from(other);
+            return;
+        }
+        let behind = self.0.order.last() < other.0.order.first();
+        if behind && self.0.places.is_none() && other.0.places.is_none() {
+            Arc::make_mut(&mut self.0).order.extend_from_slice(&other.0.order);
             return;
         }
         for v in other.iter() {

@@ -55,7 +55,9 @@ pub(super) struct RawSet {
     pub(super) len: u64,
     /// 0 where only the runtime may add.
     pub(super) capacity: u64,
-    /// The largest member.
+    /// The first member and the largest one: where `len` is the distance between them and one, all between are members,
+    /// whatever `capacity` is. 1 and 0 for an empty set.
+    pub(super) first: u64,
     pub(super) last: u64,
 }
 
@@ -194,6 +196,7 @@ pub(super) const SET_SIZE: i64 = size_of::<RawSet>() as i64;
 pub(super) const SET_ORDER: i32 = offset_of!(RawSet, order) as i32;
 pub(super) const SET_LEN: i32 = offset_of!(RawSet, len) as i32;
 pub(super) const SET_CAPACITY: i32 = offset_of!(RawSet, capacity) as i32;
+pub(super) const SET_FIRST: i32 = offset_of!(RawSet, first) as i32;
 pub(super) const SET_LAST: i32 = offset_of!(RawSet, last) as i32;
 
 /// What a compiled function returns.

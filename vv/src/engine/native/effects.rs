@@ -4,6 +4,7 @@ use crate::ir::{
     Argument, Expr, ExprKind, Function, FunctionId, Item, LocalId, Passing, Place, PrintItem, Program, Ring, Stmt,
     StmtKind, Type,
 };
+use crate::mesh::FRESH_CAPACITY;
 
 /// Functions up to this size stand in for their calls.
 const INLINE_SIZE: usize = 100;
@@ -71,6 +72,8 @@ pub(super) struct FunctionFacts {
 pub(super) struct Facts {
     pub(super) functions: Vec<FunctionFacts>,
     pub(super) old_reads: OldReads,
+    /// Room for a ring when it is first made: as much as a known list makes it need later, and more where rings grow.
+    pub(super) fresh_capacity: u32,
 }
 
 impl Facts {
@@ -127,7 +130,7 @@ impl Facts {
                 keeping: keeping(&program.functions[i], &inline),
             })
             .collect();
-        Self { functions, old_reads: old_reads(program) }
+        Self { functions, old_reads: old_reads(program), fresh_capacity: fresh_capacity(program) }
     }
 
     pub(super) fn function(&self, id: FunctionId) -> Option<&FunctionFacts> {
@@ -358,6 +361,22 @@ fn old_reads(program: &Program) -> OldReads {
         each_in(&global.init, &mut note);
     }
     reads
+}
+
+fn fresh_capacity(program: &Program) -> u32 {
+    let mut longest = 4;
+    for function in &program.functions {
+        each(&function.body, &mut |node| {
+            if let Node::Stmt(s) = node {
+                match &s.kind {
+                    StmtKind::Make { items, .. } => longest = longest.max(items.len()),
+                    StmtKind::Splice { ring: Ring::Of { .. }, .. } => longest = longest.max(FRESH_CAPACITY as usize),
+                    _ => {}
+                }
+            }
+        });
+    }
+    longest.min(FRESH_CAPACITY as usize) as u32
 }
 
 /// A part of a program.

@@ -2,7 +2,7 @@
 
 use super::super::context::{Context, PADDING, RawList, RawSet};
 use super::{List, Run, guard, status};
-use crate::mesh::{Column, Mesh, Values, VertexSet};
+use crate::mesh::{Column, Mesh, Values, Vertex, VertexSet};
 
 /// Bytes a vertex needs beside its properties, when memory is counted.
 const VERTEX_BYTES: usize = 12 + 24 + 6 * 4;
@@ -131,12 +131,21 @@ impl Run<'_> {
     fn leave_sets(&mut self) {
         self.raw_sets.clear();
         for set in &mut self.sets {
-            let closed = RawSet { order: std::ptr::null_mut(), len: 0, capacity: 0, last: u64::from(u32::MAX) };
+            let number = |v: Vertex| v.index() as u64 + 1;
+            let span = set.members.span();
+            let closed = RawSet {
+                order: std::ptr::null_mut(),
+                len: span.map_or(u64::MAX, |(first, last)| number(last) - number(first) + 1),
+                capacity: 0,
+                first: span.map_or(1, |(first, _)| number(first)),
+                last: span.map_or(0, |(_, last)| number(last)),
+            };
             let raw = match set.members.ascending() {
                 Some(order) => RawSet {
                     len: order.len() as u64,
                     capacity: order.capacity() as u64,
-                    last: order.last().copied().flatten().map_or(0, |v| v.index() as u64 + 1),
+                    first: order.first().copied().flatten().map_or(1, number),
+                    last: order.last().copied().flatten().map_or(0, number),
                     order: order.as_mut_ptr().cast(),
                 },
                 None => closed,

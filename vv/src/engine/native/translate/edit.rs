@@ -11,7 +11,6 @@ use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
 use crate::ir::{Expr, Item, LocalId, Ring, Side};
-use crate::mesh::FRESH_CAPACITY;
 
 /// Rings made of more items than this are left to the runtime.
 const MAKE_LIMIT: usize = 12;
@@ -142,7 +141,7 @@ impl<'p> Translator<'_, 'p> {
         let fresh = self.b.create_block();
         self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
         self.continue_in(fresh);
-        let least = self.int32(FRESH_CAPACITY);
+        let least = self.int32(self.unit.facts.fresh_capacity);
         let room = self.b.ins().umax(from.len, least);
         let taken = self.take_slots(head, room, slow);
         let slots = unaligned(self.regions.slots);
@@ -199,7 +198,7 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
         self.continue_in(fresh);
         self.leave_if(capacity, slow);
-        let room = (k as i64).max(i64::from(FRESH_CAPACITY));
+        let room = (k as i64).max(i64::from(self.unit.facts.fresh_capacity));
         let capacity = self.b.ins().iconst(types::I32, room);
         let taken = self.take_slots(head, capacity, slow);
         let slots = self.regions.slots;
@@ -250,12 +249,17 @@ impl<'p> Translator<'_, 'p> {
             t.continue_in(next);
             let bad = t.may_not_enter(x, there, v);
             t.leave_if(bad, slow);
-            let index = t.b.ins().ctz(here);
-            let at = t.bytes_of(index);
-            let address = t.b.ins().iadd(start, at);
-            let slots = t.regions.slots;
             if !t.mutated(Mutation::ReplacesNothing) {
-                t.b.ins().store(slots, x, address, 0);
+                // Stores as wide as the loads that will follow, for narrow ones would hold those up.
+                let [old, new, end] = [a, x, len].map(|x| t.b.ins().splat(types::I32X4, x));
+                for (k, lane) in lanes.into_iter().enumerate() {
+                    let numbers = t.lane_numbers(4 * k as u32);
+                    let within = t.b.ins().icmp(IntCC::SignedLessThan, numbers, end);
+                    let equal = t.b.ins().icmp(IntCC::Equal, lane, old);
+                    let place = t.b.ins().band(equal, within);
+                    let result = t.b.ins().bitselect(place, new, lane);
+                    t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
+                }
             }
             t.b.ins().jump(done, &[]);
         });
@@ -352,7 +356,7 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().brif(full, fresh, &[], store, &[start.into()]);
         self.continue_in(fresh);
         let twice = self.b.ins().ishl_imm_u(capacity, 1);
-        let least = self.int32(FRESH_CAPACITY);
+        let least = self.int32(self.unit.facts.fresh_capacity);
         let room = self.b.ins().umax(twice, least);
         let start = self.take_slots(head, room, slow);
         // The ring itself fills the first lanes.

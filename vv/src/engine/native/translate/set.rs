@@ -51,11 +51,27 @@ impl<'p> Translator<'_, 'p> {
     pub(super) fn is_in_set(&mut self, vertex: &'p Expr, set: &'p Expr) -> Translated<Val> {
         let v = self.vertex(vertex)?;
         let (set, mark) = self.set(set)?;
-        let ask = self.b.create_block();
+        let [ask, count, call] = [(); 3].map(|()| self.b.create_block());
+        self.b.set_cold_block(call);
         let (done, is) = self.block_with(&[types::I8]);
         let no = self.b.ins().iconst(types::I8, 0);
         self.b.ins().brif(v, ask, &[], done, &[no.into()]);
         self.continue_in(ask);
+        let set_address = self.set_address(set);
+        let flags = self.regions.sets;
+        let [len, first, last] = [context::SET_LEN, context::SET_FIRST, context::SET_LAST]
+            .map(|offset| self.b.ins().load(types::I64, flags, set_address, offset));
+        let distance = self.b.ins().isub(last, first);
+        let all = self.b.ins().iadd_imm_s(distance, 1);
+        let dense = self.b.ins().icmp(IntCC::Equal, all, len);
+        self.b.ins().brif(dense, count, &[], call, &[]);
+        self.continue_in(count);
+        let wide = self.b.ins().uextend(types::I64, v);
+        let place = self.b.ins().isub(wide, first);
+        let within = self.b.ins().icmp(IntCC::UnsignedLessThan, place, len);
+        let within = self.inverted_if(within, Mutation::IsInSetInverted);
+        self.jump_with(done, &[within]);
+        self.continue_in(call);
         let contains = self.call(Symbol::SetContains, &[set, v]).ok_or_else(wrong_type)?;
         let contains = self.b.ins().ireduce(types::I8, contains);
         let contains = self.inverted_if(contains, Mutation::IsInSetInverted);
@@ -65,12 +81,16 @@ impl<'p> Translator<'_, 'p> {
         Ok(Val::One(is[0]))
     }
 
-    /// `add`: pushes in line where the vertex is larger than all members and there is room.
-    pub(super) fn add(&mut self, v: Value, set: Value) {
+    fn set_address(&mut self, set: Value) -> Value {
         let sets = self.load_context(types::I64, context::SETS);
         let index = self.b.ins().uextend(types::I64, set);
         let offset = self.b.ins().imul_imm_s(index, context::SET_SIZE);
-        let set_address = self.b.ins().iadd(sets, offset);
+        self.b.ins().iadd(sets, offset)
+    }
+
+    /// `add`: pushes in line where the vertex is larger than all members and there is room.
+    pub(super) fn add(&mut self, v: Value, set: Value) {
+        let set_address = self.set_address(set);
         let flags = self.regions.sets;
         let len = self.b.ins().load(types::I64, flags, set_address, context::SET_LEN);
         let capacity = self.b.ins().load(types::I64, flags, set_address, context::SET_CAPACITY);
@@ -88,6 +108,9 @@ impl<'p> Translator<'_, 'p> {
         let place = self.b.ins().iadd(order, bytes);
         let members = self.regions.members;
         self.b.ins().store(members, v, place, 0);
+        let first = self.b.ins().load(types::I64, flags, set_address, context::SET_FIRST);
+        let first = self.b.ins().select(len, first, wide);
+        self.b.ins().store(flags, first, set_address, context::SET_FIRST);
         let len = self.b.ins().iadd_imm_s(len, 1);
         self.b.ins().store(flags, len, set_address, context::SET_LEN);
         self.b.ins().store(flags, wide, set_address, context::SET_LAST);

@@ -4,7 +4,7 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Value, types};
 
 use super::known::{Bounds, Fact, Found, Key};
-use super::ring::{Source, WIDTHS};
+use super::ring::Source;
 use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
@@ -223,7 +223,7 @@ impl<'p> Translator<'_, 'p> {
 
     /// Copies a ring to where no edit reaches it: into the function's frame if it is short.
     fn copy_ring(&mut self, Bounds { start, len, flags }: Bounds) -> Bounds {
-        let longest = WIDTHS[WIDTHS.len() - 1] as u32;
+        let longest = self.widths()[1] as u32;
         let frame = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * longest, 4));
         let copy = self.b.ins().stack_addr(types::I64, frame, 0);
         let (ready, address) = self.block_with(&[types::I64]);
