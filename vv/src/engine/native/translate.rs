@@ -94,7 +94,7 @@ fn clif_types(ty: mesh::Type) -> &'static [ClifType] {
         mesh::Type::Bool => &[types::I8],
         mesh::Type::Int => &[types::I64],
         mesh::Type::Double => &[types::F64],
-        mesh::Type::Vec => &[types::F64, types::F64, types::F64],
+        mesh::Type::Vec => &[types::F64X2, types::F64],
         mesh::Type::Vertex => &[types::I32],
     }
 }
@@ -104,7 +104,8 @@ fn clif_types(ty: mesh::Type) -> &'static [ClifType] {
 pub(super) enum Val {
     Void,
     One(Value),
-    Vec([Value; 3]),
+    /// x and y side by side, and z: arithmetic on two lanes costs what it costs on one.
+    Vec([Value; 2]),
 }
 
 impl Val {
@@ -115,7 +116,7 @@ impl Val {
         }
     }
 
-    fn vec(self) -> Translated<[Value; 3]> {
+    fn vec(self) -> Translated<[Value; 2]> {
         match self {
             Self::Vec(v) => Ok(v),
             _ => Err(wrong_type()),
@@ -133,7 +134,7 @@ impl Val {
     fn from_parts(parts: &[Value]) -> Self {
         match *parts {
             [x] => Self::One(x),
-            [x, y, z] => Self::Vec([x, y, z]),
+            [xy, z] => Self::Vec([xy, z]),
             _ => Self::Void,
         }
     }
@@ -149,7 +150,7 @@ enum Storage {
     /// Not declared yet.
     None,
     Fixed(Val),
-    Variables([Variable; 3], usize),
+    Variables([Variable; 2], usize),
     /// An address.
     Memory(Value),
     /// Index of a set.
@@ -323,7 +324,7 @@ impl<'t, 'p> Translator<'t, 'p> {
                     let value = Val::from_parts(parameters.get(operands..operands + n).ok_or_else(wrong_type)?);
                     operands += n;
                     let place = self.allocate(ty, keeping[i]);
-                    self.define(place, ty, value)
+                    self.define(place, value)
                 }
                 (Type::Mesh, None) => Storage::Set(self.new_set()),
                 (Type::Value(ty), None) => self.allocate(ty, keeping[i]),
@@ -362,11 +363,8 @@ impl<'t, 'p> Translator<'t, 'p> {
             let value = self.expression(&global.init)?;
             self.known.leave();
             let context = self.context;
-            for (k, &part) in value.parts().iter().enumerate() {
-                let part = self.widen(part);
-                let flags = self.regions.context;
-                self.b.ins().store(flags, part, context, context::byte_offset(word + k));
-            }
+            let value = self.widened(value);
+            self.store_value(value, self.regions.context, context, context::byte_offset(word));
             self.b.ins().jump(done, &[]);
             self.b.switch_to_block(done);
             self.b.seal_block(done);

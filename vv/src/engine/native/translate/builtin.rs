@@ -23,7 +23,7 @@ impl Translator<'_, '_> {
         let mut at = 0;
         for value in arguments {
             self.store_words_at(*value, at);
-            at += value.parts().len();
+            at += if matches!(value, Val::Vec(_)) { 3 } else { 1 };
         }
         let index = Builtin::all().position(|b| b == builtin).ok_or_else(wrong_type)?;
         let index = self.int32(index as u32);
@@ -54,21 +54,22 @@ impl Translator<'_, '_> {
                 let min = (builtin.name() == "min") != self.mutated(Mutation::MinIsMax);
                 Val::One(if min { self.b.ins().smin(a, b) } else { self.b.ins().smax(a, b) })
             }
-            ("vec", Code::VecFromD3(_), &[x, y, z]) => Val::Vec([x.one()?, y.one()?, z.one()?]),
+            ("vec", Code::VecFromD3(_), &[x, y, z]) => self.vec_of([x.one()?, y.one()?, z.one()?]),
             ("dot", Code::DFromVec2(_), &[a, b]) => Val::One(self.dot(a.vec()?, b.vec()?)),
             ("cross", Code::Vec2(_), &[a, b]) => {
-                let (a, b) = (a.vec()?, b.vec()?);
-                Val::Vec([(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
+                let (a, b) = (self.coordinates(a.vec()?), self.coordinates(b.vec()?));
+                let coordinates = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
                     let (i, j) = if self.mutated(Mutation::CrossIsNegated) { (j, i) } else { (i, j) };
                     let first = self.b.ins().fmul(a[i], b[j]);
                     let second = self.b.ins().fmul(a[j], b[i]);
                     self.b.ins().fsub(first, second)
-                }))
+                });
+                self.vec_of(coordinates)
             }
             ("length", Code::DFromVec1(_), &[v]) => Val::One(self.length(v.vec()?)),
             ("distance", Code::DFromVec2(_), &[a, b]) => {
                 let (a, b) = (a.vec()?, b.vec()?);
-                let d = [0, 1, 2].map(|k| self.b.ins().fsub(a[k], b[k]));
+                let d = [0, 1].map(|k| self.b.ins().fsub(a[k], b[k]));
                 Val::One(self.length(d))
             }
             ("normalize", Code::Vec1(_), &[v]) => {
@@ -76,17 +77,19 @@ impl Translator<'_, '_> {
                 let length = self.length(v);
                 let zero = self.b.ins().f64const(0.0);
                 let none = self.b.ins().fcmp(FloatCC::Equal, length, zero);
-                Val::Vec(v.map(|x| {
+                let coordinates = self.coordinates(v).map(|x| {
                     let scaled = self.b.ins().fdiv(x, length);
                     self.b.ins().select(none, zero, scaled)
-                }))
+                });
+                self.vec_of(coordinates)
             }
             _ => return Ok(None),
         }))
     }
 
-    fn dot(&mut self, a: [Value; 3], b: [Value; 3]) -> Value {
-        let [x, y, z] = [0, 1, 2].map(|k| self.b.ins().fmul(a[k], b[k]));
+    fn dot(&mut self, a: [Value; 2], b: [Value; 2]) -> Value {
+        let products = [0, 1].map(|k| self.b.ins().fmul(a[k], b[k]));
+        let [x, y, z] = self.coordinates(products);
         let xy = self.b.ins().fadd(x, y);
         if self.mutated(Mutation::DotForgetsZ) {
             return xy;
@@ -94,7 +97,7 @@ impl Translator<'_, '_> {
         self.b.ins().fadd(xy, z)
     }
 
-    fn length(&mut self, v: [Value; 3]) -> Value {
+    fn length(&mut self, v: [Value; 2]) -> Value {
         let square = self.dot(v, v);
         self.b.ins().sqrt(square)
     }

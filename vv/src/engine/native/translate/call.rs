@@ -49,8 +49,10 @@ impl<'p> Translator<'_, 'p> {
         }
         if self.mutated(Mutation::CallsWithZeros) {
             for operand in operands.iter_mut().skip(1) {
-                if self.b.func.dfg.value_type(*operand) == types::F64 {
-                    *operand = self.b.ins().f64const(0.0);
+                match self.b.func.dfg.value_type(*operand) {
+                    types::F64 => *operand = self.b.ins().f64const(0.0),
+                    types::F64X2 => *operand = self.b.ins().fsub(*operand, *operand),
+                    _ => {}
                 }
             }
         }
@@ -109,7 +111,7 @@ impl<'p> Translator<'_, 'p> {
                     let value = self.expression(e)?;
                     let Some(Type::Value(ty)) = function.locals.get(i).map(|l| l.ty) else { return Err(wrong_type()) };
                     let place = self.allocate(ty, keeping[i]);
-                    self.define(place, ty, value)
+                    self.define(place, value)
                 }
                 // The caller's variable itself.
                 Argument::Reference(local) => self.address_of(*local)?,

@@ -115,22 +115,10 @@ impl<'p> Translator<'_, 'p> {
             used.push(within);
         }
         let itself = self.b.ins().splat(types::I32X4, v);
-        let mut pairs: Vec<(Value, Value)> = items.iter().map(|&x| (x, itself)).collect();
-        for (k, &x) in items.iter().enumerate() {
-            pairs.extend([1, 2].map(|by| (x, self.rotated(x, by))));
-            for &y in &items[..k] {
-                pairs.extend([0, 1, 2, 3].map(|by| (x, self.rotated(y, by))));
-            }
-        }
-        let mut same = None;
-        for (x, y) in pairs {
-            let equal = self.b.ins().icmp(IntCC::Equal, x, y);
-            same = Some(same.map_or(equal, |same| self.b.ins().bor(same, equal)));
-        }
-        if let Some(same) = same {
-            let bad = self.b.ins().vany_true(same);
-            self.leave_if(bad, slow);
-        }
+        let mut pairs = self.pairs_of_lanes(&items);
+        pairs.extend(items.iter().map(|&x| (x, itself)));
+        let bad = self.any_equal(&pairs);
+        self.leave_if(bad, slow);
         let head = self.head(v, false);
         let heads = self.regions.heads;
         let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
@@ -174,18 +162,10 @@ impl<'p> Translator<'_, 'p> {
     /// Makes a ring of vertices, or goes to `slow` with nothing done.
     fn make_in_place(&mut self, items: &[Value], v: Value, slow: Block) {
         let k = items.len();
-        let mut bad = self.load_context(types::I64, context::HAS_EDGE_VALUES);
-        bad = self.b.ins().ireduce(types::I8, bad);
-        for (i, &x) in items.iter().enumerate() {
-            if !self.known.holds(Key::NotNull(x)) {
-                let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
-                bad = self.b.ins().bor(bad, null);
-            }
-            for &y in items[..i].iter().chain(std::iter::once(&v)) {
-                let same = self.b.ins().icmp(IntCC::Equal, x, y);
-                bad = self.b.ins().bor(bad, same);
-            }
-        }
+        let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
+        self.leave_if(edge_values, slow);
+        let lanes = if k > 3 { self.packed(items, v) } else { Vec::new() };
+        let bad = if k > 3 { self.not_a_ring_of_lanes(&lanes, items) } else { self.not_a_ring(items, v) };
         self.leave_if(bad, slow);
         let head = self.head(v, false);
         let heads = self.regions.heads;
@@ -209,11 +189,81 @@ impl<'p> Translator<'_, 'p> {
         self.jump_with(store, &[taken]);
         self.continue_in(store);
         let start = start[0];
-        for (i, &x) in items.iter().enumerate() {
+        let whole = lanes.len().min(k / 4);
+        for (i, &four) in lanes[..whole].iter().enumerate() {
+            self.b.ins().store(unaligned(slots), four, start, 16 * i as i32);
+        }
+        for (i, &x) in items.iter().enumerate().skip(4 * whole) {
             self.b.ins().store(slots, x, start, 4 * i as i32);
         }
         let len = self.int32(k as u32);
         self.b.ins().store(heads, len, head, context::HEAD_LEN);
+    }
+
+    /// Not zero where a few items are no ring of `v`: null, `v` itself, one twice.
+    fn not_a_ring(&mut self, items: &[Value], v: Value) -> Value {
+        let mut bad = self.b.ins().iconst(types::I8, 0);
+        for (i, &x) in items.iter().enumerate() {
+            if !self.known.holds(Key::NotNull(x)) {
+                let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
+                bad = self.b.ins().bor(bad, null);
+            }
+            for &y in items[..i].iter().chain(std::iter::once(&v)) {
+                let same = self.b.ins().icmp(IntCC::Equal, x, y);
+                bad = self.b.ins().bor(bad, same);
+            }
+        }
+        bad
+    }
+
+    /// Items by fours; after the last `v`, and then lanes that differ from every vertex and from each other.
+    fn packed(&mut self, items: &[Value], v: Value) -> Vec<Value> {
+        let padding = (1..4u32).map(|i| !i).map(|none| self.int32(none)).collect::<Vec<_>>();
+        let all: Vec<Value> = items.iter().copied().chain([v]).chain(padding).collect();
+        let fours = items.len() / 4 + 1;
+        (0..fours)
+            .map(|k| {
+                let four = &all[4 * k..4 * k + 4];
+                let first = self.b.ins().scalar_to_vector(types::I32X4, four[0]);
+                (1..4).fold(first, |lanes, i| self.b.ins().insertlane(lanes, four[usize::from(i)], i))
+            })
+            .collect()
+    }
+
+    /// [`Translator::not_a_ring`], four comparisons at a time.
+    fn not_a_ring_of_lanes(&mut self, lanes: &[Value], items: &[Value]) -> Value {
+        let mut pairs = self.pairs_of_lanes(lanes);
+        if !items.iter().all(|&x| self.known.holds(Key::NotNull(x))) {
+            let zero = self.int32(0);
+            let nulls = self.b.ins().splat(types::I32X4, zero);
+            pairs.extend(lanes.iter().map(|&x| (x, nulls)));
+        }
+        self.any_equal(&pairs)
+    }
+
+    /// Comparisons that put each lane beside each other one.
+    fn pairs_of_lanes(&mut self, lanes: &[Value]) -> Vec<(Value, Value)> {
+        let mut pairs = Vec::new();
+        for (k, &x) in lanes.iter().enumerate() {
+            pairs.extend([1, 2].map(|by| (x, self.rotated(x, by))));
+            for &y in &lanes[..k] {
+                pairs.extend([0, 1, 2, 3].map(|by| (x, if by == 0 { y } else { self.rotated(y, by) })));
+            }
+        }
+        pairs
+    }
+
+    /// Whether any of the lanes is equal in any of the pairs.
+    fn any_equal(&mut self, pairs: &[(Value, Value)]) -> Value {
+        let mut same = None;
+        for &(x, y) in pairs {
+            let equal = self.b.ins().icmp(IntCC::Equal, x, y);
+            same = Some(same.map_or(equal, |same| self.b.ins().bor(same, equal)));
+        }
+        match same {
+            Some(same) => self.b.ins().vany_true(same),
+            None => self.b.ins().iconst(types::I8, 0),
+        }
     }
 
     pub(super) fn replace(&mut self, item: &'p Item, with: &'p Item, ring: &'p Ring) -> Translated<()> {

@@ -1,7 +1,7 @@
 //! Expressions.
 
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
-use cranelift_codegen::ir::{InstBuilder, Type as ClifType, Value, types};
+use cranelift_codegen::ir::{ConstantData, InstBuilder, Type as ClifType, Value, types};
 
 use super::ring::Source;
 use super::{Symbol, Translated, Translator, Val, clif_types, wrong_type};
@@ -56,8 +56,8 @@ impl<'p> Translator<'_, 'p> {
             ExprKind::Or(a, b) => self.short_circuit(a, b, true),
             ExprKind::Conditional(condition, a, b) => self.conditional(condition, a, b),
             ExprKind::Coordinate(a, axis) => {
-                let parts = self.expression(a)?.vec()?;
-                Ok(Val::One(parts[usize::from((*axis).min(2))]))
+                let v = self.expression(a)?.vec()?;
+                Ok(Val::One(self.coordinate(v, *axis)))
             }
             ExprKind::Call(function, arguments) => self.call_function(*function, arguments, e.span),
             ExprKind::Builtin(builtin, arguments) => {
@@ -127,7 +127,11 @@ impl<'p> Translator<'_, 'p> {
             mesh::Value::Bool(b) => Val::One(self.b.ins().iconst(types::I8, i64::from(b))),
             mesh::Value::Int(i) => Val::One(self.b.ins().iconst(types::I64, i)),
             mesh::Value::Double(x) => Val::One(self.b.ins().f64const(x)),
-            mesh::Value::Vec(v) => Val::Vec(v.to_array().map(|x| self.b.ins().f64const(x))),
+            mesh::Value::Vec(v) => {
+                let bytes: Vec<u8> = [v.x, v.y].iter().flat_map(|x| x.to_bits().to_le_bytes()).collect();
+                let xy = self.b.func.dfg.constants.insert(ConstantData::from(bytes));
+                Val::Vec([self.b.ins().vconst(types::F64X2, xy), self.b.ins().f64const(v.z)])
+            }
             mesh::Value::Vertex(None) => Val::One(self.int32(0)),
             mesh::Value::Vertex(Some(_)) => return Err(wrong_type()),
         })
@@ -271,16 +275,19 @@ impl<'p> Translator<'_, 'p> {
             Binary::AddVec | Binary::SubtractVec => {
                 let op = if op == Binary::AddVec { Binary::AddDouble } else { Binary::SubtractDouble };
                 let (a, b) = (a.vec()?, b.vec()?);
-                Ok(Val::Vec([0, 1, 2].map(|k| self.arithmetic(op, a[k], b[k]))))
+                Ok(Val::Vec([0, 1].map(|k| self.arithmetic(op, a[k], b[k]))))
             }
             Binary::MultiplyVec | Binary::DivideVec => {
                 let op = if op == Binary::MultiplyVec { Binary::MultiplyDouble } else { Binary::DivideDouble };
                 let (a, b) = (a.vec()?, b.one()?);
-                Ok(Val::Vec(a.map(|x| self.arithmetic(op, x, b))))
+                let both = self.b.ins().splat(types::F64X2, b);
+                Ok(Val::Vec([self.arithmetic(op, a[0], both), self.arithmetic(op, a[1], b)]))
             }
             Binary::ScaleByDouble => {
                 let (a, b) = (a.one()?, b.vec()?);
-                Ok(Val::Vec(b.map(|x| self.arithmetic(Binary::MultiplyDouble, a, x))))
+                let both = self.b.ins().splat(types::F64X2, a);
+                let op = Binary::MultiplyDouble;
+                Ok(Val::Vec([self.arithmetic(op, both, b[0]), self.arithmetic(op, a, b[1])]))
             }
             Binary::CompareInt(c) => {
                 let is = self.b.ins().icmp(signed(c), a.one()?, b.one()?);
@@ -299,7 +306,7 @@ impl<'p> Translator<'_, 'p> {
                 Ok(Val::One(self.inverted_if(is, Mutation::ComparesBoolsInverted)))
             }
             Binary::CompareVec(c) => {
-                let (a, b) = (a.vec()?, b.vec()?);
+                let (a, b) = (self.coordinates(a.vec()?), self.coordinates(b.vec()?));
                 let [x, y, z] = [0, 1, 2].map(|k| self.b.ins().fcmp(FloatCC::Equal, a[k], b[k]));
                 let xy = self.b.ins().band(x, y);
                 let mut equal = self.b.ins().band(xy, z);

@@ -58,12 +58,7 @@ impl<'p> Translator<'_, 'p> {
 
     pub(super) fn read(&mut self, (target, axis): Spot) -> Translated<Val> {
         let whole = match target {
-            Target::Local(local) => match (self.storage(local)?, axis) {
-                (Storage::Variables(variables, 3), Some(axis)) => {
-                    return Ok(Val::One(self.b.use_var(variables[usize::from(axis.min(2))])));
-                }
-                _ => self.read_local(local)?,
-            },
+            Target::Local(local) => self.read_local(local)?,
             Target::Position { .. } | Target::Vertex { .. } => {
                 let (ty, flags, address) = self.address(target)?;
                 if let (Type::Vec, Some(axis)) = (ty, axis) {
@@ -86,7 +81,7 @@ impl<'p> Translator<'_, 'p> {
             }
         };
         Ok(match (whole, axis) {
-            (Val::Vec(parts), Some(axis)) => Val::One(parts[usize::from(axis.min(2))]),
+            (Val::Vec(v), Some(axis)) => Val::One(self.coordinate(v, axis)),
             (whole, _) => whole,
         })
     }
@@ -94,8 +89,9 @@ impl<'p> Translator<'_, 'p> {
     pub(super) fn store(&mut self, (target, axis): Spot, value: Val) -> Translated<()> {
         match target {
             Target::Local(local) => match (self.storage(local)?, axis) {
-                (Storage::Variables(variables, 3), Some(axis)) => {
-                    self.b.def_var(variables[usize::from(axis.min(2))], value.one()?);
+                (Storage::Variables(..), Some(_)) => {
+                    let value = self.with_coordinate(target, axis, value)?;
+                    self.define_local(local, value)?;
                 }
                 (Storage::Memory(address), Some(axis)) => {
                     let flags = self.regions.locals;
@@ -106,11 +102,14 @@ impl<'p> Translator<'_, 'p> {
             Target::Position { .. } | Target::Vertex { .. } => {
                 let (_, flags, address) = self.address(target)?;
                 let first = axis.map_or(0, |axis| 8 * i32::from(axis.min(2)));
-                for (k, &part) in value.parts().iter().enumerate() {
-                    if k == 1 && self.mutated(Mutation::StoresNoY) {
-                        continue;
+                match value {
+                    Val::Vec(v) if self.mutated(Mutation::StoresNoY) => {
+                        for axis in [0, 2] {
+                            let x = self.coordinate(v, axis);
+                            self.b.ins().store(flags, x, address, 8 * i32::from(axis));
+                        }
                     }
-                    self.b.ins().store(flags, part, address, first + 8 * k as i32);
+                    value => self.store_value(value, flags, address, first),
                 }
             }
             Target::Edge { property, ends: [p, q], .. } => {
@@ -136,9 +135,8 @@ impl<'p> Translator<'_, 'p> {
     /// The whole value of a place where one coordinate is to be stored.
     fn with_coordinate(&mut self, target: Target, axis: Option<u8>, value: Val) -> Translated<Val> {
         let Some(axis) = axis else { return Ok(value) };
-        let mut whole = self.read((target, None))?.vec()?;
-        whole[usize::from(axis.min(2))] = value.one()?;
-        Ok(Val::Vec(whole))
+        let whole = self.read((target, None))?.vec()?;
+        Ok(self.with(whole, axis, value.one()?))
     }
 
     /// Type, kind of memory and address of a position or vertex property.
@@ -227,24 +225,21 @@ impl<'p> Translator<'_, 'p> {
         self.known.learn(super::known::Key::NotNull(v), super::known::Fact::Holds);
         let base = self.load_context(types::I64, context::HEADS);
         let head = self.element(base, v, context::HEAD_SIZE);
-        let (zero, zero32) = (self.b.ins().iconst(types::I64, 0), self.int32(0));
+        let zero32 = self.int32(0);
         let heads = self.regions.heads;
         self.b.ins().store(heads, zero32, head, context::HEAD_OFFSET);
         self.b.ins().store(heads, zero32, head, context::HEAD_LEN);
         self.b.ins().store(heads, zero32, head, context::HEAD_CAPACITY);
         let (_, flags, position) = self.address(Target::Position { v, old: false })?;
-        for k in 0..3 {
-            self.b.ins().store(flags, zero, position, 8 * k);
-        }
+        let origin = self.constant(crate::mesh::Value::zero(Type::Vec))?;
+        self.store_value(origin, flags, position, 0);
         for (property, declaration) in self.program.vertex_properties.iter().enumerate() {
             let mut default = self.constant(declaration.default)?;
             if self.mutated(Mutation::CreatesWithoutDefaults) {
                 default = self.constant(crate::mesh::Value::zero(declaration.default.ty()))?;
             }
             let (_, flags, address) = self.address(Target::Vertex { property: property as u32, v, old: false })?;
-            for (k, &part) in default.parts().iter().enumerate() {
-                self.b.ins().store(flags, part, address, 8 * k as i32);
-            }
+            self.store_value(default, flags, address, 0);
         }
         self.store_context(next, context::VERTEX_COUNT);
         Ok(v)

@@ -3,11 +3,15 @@
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Type as ClifType, Value, types};
 use cranelift_frontend::Variable;
 
+use super::ring::unaligned;
 use super::{Frame, Refused, Storage, Translated, Translator, Val, clif_types, wrong_type};
 use crate::engine::native::context;
 use crate::engine::native::effects::Keeping;
 use crate::ir::{LocalId, Type};
 use crate::mesh;
+
+/// Where the parts of a value lie in memory.
+const PART_OFFSETS: [i32; 2] = [0, 16];
 
 impl<'p> Translator<'_, 'p> {
     pub(super) fn frame(&self) -> Translated<&Frame<'p>> {
@@ -42,7 +46,7 @@ impl<'p> Translator<'_, 'p> {
             Keeping::Fixed | Keeping::Face => Storage::None,
             Keeping::Variable => {
                 let types = clif_types(ty);
-                let mut variables = [Variable::from_u32(0); 3];
+                let mut variables = [Variable::from_u32(0); 2];
                 for (variable, &t) in variables.iter_mut().zip(types) {
                     *variable = self.b.declare_var(t);
                 }
@@ -57,7 +61,7 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Stores a value, and says where it lives from now on.
-    pub(super) fn define(&mut self, storage: Storage, ty: mesh::Type, value: Val) -> Storage {
+    pub(super) fn define(&mut self, storage: Storage, value: Val) -> Storage {
         match storage {
             Storage::None | Storage::Fixed(_) => Storage::Fixed(value),
             Storage::Variables(variables, n) => {
@@ -67,11 +71,7 @@ impl<'p> Translator<'_, 'p> {
                 storage
             }
             Storage::Memory(address) => {
-                let flags = self.regions.locals;
-                for (k, &part) in value.parts().iter().enumerate() {
-                    self.b.ins().store(flags, part, address, 8 * k as i32);
-                }
-                let _ = ty;
+                self.store_value(value, self.regions.locals, address, 0);
                 storage
             }
             Storage::Set(_) | Storage::List(_) | Storage::Face(_) => storage,
@@ -79,9 +79,8 @@ impl<'p> Translator<'_, 'p> {
     }
 
     pub(super) fn define_local(&mut self, local: LocalId, value: Val) -> Translated<()> {
-        let ty = self.type_of(local)?;
         let storage = self.storage(local)?;
-        let storage = self.define(storage, ty, value);
+        let storage = self.define(storage, value);
         if let Some(place) = self.frame_mut()?.storage.get_mut(local.0 as usize) {
             *place = storage;
         }
@@ -93,7 +92,7 @@ impl<'p> Translator<'_, 'p> {
         Ok(match self.storage(local)? {
             Storage::Fixed(value) => value,
             Storage::Variables(variables, n) => {
-                let mut parts = [self.context; 3];
+                let mut parts = [self.context; 2];
                 for (part, &variable) in parts.iter_mut().zip(variables.iter().take(n)) {
                     *part = self.b.use_var(variable);
                 }
@@ -111,12 +110,48 @@ impl<'p> Translator<'_, 'p> {
 
     /// Loads a value of a type; its parts lie one after the other.
     pub(super) fn load_value(&mut self, ty: mesh::Type, flags: MemFlagsData, address: Value, offset: i32) -> Val {
-        let mut parts = [address; 3];
+        let mut parts = [address; 2];
         let types = clif_types(ty);
-        for (k, (part, &t)) in parts.iter_mut().zip(types).enumerate() {
-            *part = self.b.ins().load(t, flags, address, offset + 8 * k as i32);
+        for ((part, &t), at) in parts.iter_mut().zip(types).zip(PART_OFFSETS) {
+            let flags = if t == types::F64X2 { unaligned(flags) } else { flags };
+            *part = self.b.ins().load(t, flags, address, offset + at);
         }
         Val::from_parts(&parts[..types.len()])
+    }
+
+    /// Stores a value as [`Translator::load_value`] loads it.
+    pub(super) fn store_value(&mut self, value: Val, flags: MemFlagsData, address: Value, offset: i32) {
+        for (&part, at) in value.parts().iter().zip(PART_OFFSETS) {
+            let wide = self.b.func.dfg.value_type(part) == types::F64X2;
+            let flags = if wide { unaligned(flags) } else { flags };
+            self.b.ins().store(flags, part, address, offset + at);
+        }
+    }
+
+    /// A coordinate of a vec.
+    pub(super) fn coordinate(&mut self, [xy, z]: [Value; 2], axis: u8) -> Value {
+        match axis {
+            0 | 1 => self.b.ins().extractlane(xy, axis),
+            _ => z,
+        }
+    }
+
+    pub(super) fn coordinates(&mut self, v: [Value; 2]) -> [Value; 3] {
+        [0, 1, 2].map(|axis| self.coordinate(v, axis))
+    }
+
+    /// The vec with another coordinate.
+    pub(super) fn with(&mut self, [xy, z]: [Value; 2], axis: u8, x: Value) -> Val {
+        Val::Vec(match axis {
+            0 | 1 => [self.b.ins().insertlane(xy, x, axis), z],
+            _ => [xy, x],
+        })
+    }
+
+    /// The vec of three coordinates.
+    pub(super) fn vec_of(&mut self, [x, y, z]: [Value; 3]) -> Val {
+        let xy = self.b.ins().scalar_to_vector(types::F64X2, x);
+        Val::Vec([self.b.ins().insertlane(xy, y, 1), z])
     }
 
     pub(super) fn load_context(&mut self, ty: ClifType, offset: i32) -> Value {
@@ -140,17 +175,17 @@ impl<'p> Translator<'_, 'p> {
     }
 
     pub(super) fn store_words_at(&mut self, value: Val, first: usize) {
-        for (k, &part) in value.parts().iter().enumerate() {
-            let part = self.widen(part);
-            self.store_context(part, context::VALUE + 8 * (first + k) as i32);
-        }
+        let value = self.widened(value);
+        self.store_value(value, self.regions.context, self.context, context::VALUE + 8 * first as i32);
     }
 
-    /// A part of a value as eight bytes.
-    pub(super) fn widen(&mut self, part: Value) -> Value {
-        match self.b.func.dfg.value_type(part) {
-            types::I8 | types::I32 => self.b.ins().uextend(types::I64, part),
-            _ => part,
+    /// A value in whole words.
+    pub(super) fn widened(&mut self, value: Val) -> Val {
+        match value {
+            Val::One(x) if matches!(self.b.func.dfg.value_type(x), types::I8 | types::I32) => {
+                Val::One(self.b.ins().uextend(types::I64, x))
+            }
+            value => value,
         }
     }
 
