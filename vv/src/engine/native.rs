@@ -83,6 +83,7 @@ pub(crate) struct Native {
     texts: Vec<String>,
     memos: Vec<Memo>,
     creates: bool,
+    grows: bool,
 }
 
 impl std::fmt::Debug for Native {
@@ -163,6 +164,7 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
         code: Executable::new(owned, globals, &entries),
         layout,
         creates: facts.creates(),
+        grows: facts.grows,
         old_reads: facts.old_reads,
         sites,
         texts,
@@ -215,6 +217,7 @@ impl Native {
             texts: &self.texts,
             memos: &self.memos,
             creates: self.creates,
+            grows: self.grows,
             settings,
         };
         match run::run(fixed, &self.code, function, mesh, generation, &mut output) {

@@ -115,7 +115,7 @@ pub(crate) struct Head {
 }
 
 impl Head {
-    pub(super) fn range(self) -> std::ops::Range<usize> {
+    pub(crate) fn range(self) -> std::ops::Range<usize> {
         self.offset as usize..self.offset as usize + self.len as usize
     }
 }

@@ -74,6 +74,8 @@ pub(super) struct Facts {
     pub(super) old_reads: OldReads,
     /// Room for a ring when it is first made: as much as a known list makes it need later, and more where rings grow.
     pub(super) fresh_capacity: u32,
+    /// Whether vertices are spliced into rings.
+    pub(super) grows: bool,
 }
 
 impl Facts {
@@ -130,7 +132,8 @@ impl Facts {
                 keeping: keeping(&program.functions[i], &inline),
             })
             .collect();
-        Self { functions, old_reads: old_reads(program), fresh_capacity: fresh_capacity(program) }
+        let (fresh_capacity, grows) = growth(program);
+        Self { functions, old_reads: old_reads(program), fresh_capacity, grows }
     }
 
     pub(super) fn function(&self, id: FunctionId) -> Option<&FunctionFacts> {
@@ -363,20 +366,24 @@ fn old_reads(program: &Program) -> OldReads {
     reads
 }
 
-fn fresh_capacity(program: &Program) -> u32 {
-    let mut longest = 4;
+/// [`Facts::fresh_capacity`] and [`Facts::grows`].
+fn growth(program: &Program) -> (u32, bool) {
+    let (mut longest, mut grows) = (4, false);
     for function in &program.functions {
         each(&function.body, &mut |node| {
             if let Node::Stmt(s) = node {
                 match &s.kind {
                     StmtKind::Make { items, .. } => longest = longest.max(items.len()),
-                    StmtKind::Splice { ring: Ring::Of { .. }, .. } => longest = longest.max(FRESH_CAPACITY as usize),
+                    StmtKind::Splice { item, ring: Ring::Of { .. }, .. } => {
+                        longest = longest.max(FRESH_CAPACITY as usize);
+                        grows |= matches!(item, Item::Vertex(_));
+                    }
                     _ => {}
                 }
             }
         });
     }
-    longest.min(FRESH_CAPACITY as usize) as u32
+    (longest.min(FRESH_CAPACITY as usize) as u32, grows)
 }
 
 /// A part of a program.

@@ -129,6 +129,8 @@ pub(super) struct Fixed<'a> {
     pub(super) memos: &'a [Memo],
     /// Whether it may create vertices.
     pub(super) creates: bool,
+    /// Whether it splices vertices into rings.
+    pub(super) grows: bool,
     pub(super) settings: &'a Settings,
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::context::{Context, PADDING, RawList, RawSet};
 use super::{List, Run, guard, status};
-use crate::mesh::{Column, Mesh, Values, Vertex, VertexSet};
+use crate::mesh::{Column, Head, Mesh, Values, Vertex, VertexSet};
 
 /// Bytes a vertex needs beside its properties, when memory is counted.
 const VERTEX_BYTES: usize = 12 + 24 + 6 * 4;
@@ -21,6 +21,14 @@ impl Run<'_> {
         let each = VERTEX_BYTES + 8 * self.vertex_columns.len();
         if self.fixed.creates && self.allows(4 * n * each + 16 * slots) {
             (vertex_room, slot_room) = (4 * n + 64, 4 * slots + 512);
+        }
+        let doubled = 2 * self.mesh.heads().iter().map(|head| head.len as usize).sum::<usize>();
+        let grows = self.fixed.grows && !has_edge_values && u32::try_from(doubled).is_ok();
+        if grows && self.allows(24 * n + 4 * slot_room.max(doubled)) {
+            slot_room = slot_room.max(doubled);
+            let (heads, slots) = with_double_room(&self.mesh, vertex_room, slot_room + PADDING);
+            let arrays = self.mesh.arrays();
+            (*arrays.heads, *arrays.slots) = (heads, slots);
         }
         let arrays = self.mesh.arrays();
         own_column(arrays.heads, vertex_room);
@@ -243,6 +251,23 @@ pub(super) extern "C" fn grow_vertices(context: *mut Context) -> u32 {
 
 pub(super) extern "C" fn grow_slots(context: *mut Context, more: u64) -> u32 {
     guard(context, status::REPEAT, |run| run.grow_slots(more as usize).map(|()| status::DONE))
+}
+
+/// The rings of a mesh, one after the other in order, each with room for twice as many vertices: a program that splices
+/// into most of them then moves none.
+fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>, Column<Option<Vertex>>) {
+    let mut heads: Vec<Head> = Vec::with_capacity(vertices);
+    let mut arena: Vec<Option<Vertex>> = Vec::with_capacity(slots);
+    advise_huge_pages(heads.as_ptr().cast(), heads.capacity() * size_of::<Head>());
+    advise_huge_pages(arena.as_ptr().cast(), arena.capacity() * size_of::<Option<Vertex>>());
+    for head in mesh.heads() {
+        let ring = mesh.slots().get(head.range()).unwrap_or(&[]);
+        let capacity = 2 * head.len;
+        heads.push(Head { offset: arena.len() as u32, len: head.len, capacity });
+        arena.extend_from_slice(ring);
+        arena.extend(ring.iter().map(|_| None));
+    }
+    (heads.into(), arena.into())
 }
 
 /// Runs `$body` with `$column` bound to the typed column inside `$values`.
