@@ -130,9 +130,9 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
     let mut compiled = Vec::new();
     for (i, function) in program.functions.iter().enumerate() {
         let id = FunctionId(i as u32);
-        let wanted = unit.facts.function(id).is_some_and(|f| f.reached && (!f.inline || roots.contains(&id)));
-        if wanted {
-            let signature = translate::signature(function, module.make_signature())?;
+        let Some(facts) = unit.facts.function(id) else { continue };
+        if facts.reached && (!facts.inline || roots.contains(&id)) {
+            let signature = translate::signature(function, &facts.keeping, module.make_signature())?;
             let declared = module.declare_function(&format!("f{i}"), Linkage::Local, &signature).map_err(refused)?;
             unit.functions.insert(id, declared);
             compiled.push((id, declared, signature));

@@ -165,7 +165,12 @@ impl<'a> Walker<'a> {
                 continue;
             }
             let (leaves_x, to) = before(self.finder.ring(x), at_x);
-            if to == Some(w) && after(self.finder.ring(w), at_w) == Some(x) && x != w {
+            let from = after(self.finder.ring(w), at_w);
+            // Gaps are less than every vertex. An older corner has this face already, if it is one.
+            if (to < Some(v)) | (from < Some(v)) {
+                continue;
+            }
+            if to == Some(w) && from == Some(x) && x != w {
                 self.add(&[(v, i as u32), (x, leaves_x), (w, at_w)]);
                 continue;
             }

@@ -74,10 +74,10 @@ pub(super) struct RawList {
 /// Slots that can be read, though they mean nothing, behind the last one in use.
 pub(super) const PADDING: usize = 24;
 
-/// The last operands and result of a pure function at one of its calls.
+/// Operands and results of a pure function at one of its calls.
 pub(super) struct Memo {
     pub(super) builtin: Builtin,
-    /// The first of its [`MEMO_WORDS`].
+    /// The first of its [`MEMO_ENTRIES`] times [`MEMO_WORDS`].
     pub(super) word: usize,
 }
 
@@ -96,6 +96,9 @@ const GLOBAL_WORDS: usize = 3;
 /// Two operands and the result.
 pub(super) const MEMO_WORDS: usize = 3;
 
+/// How many calls a memo remembers, a power of two: operands choose which.
+pub(super) const MEMO_ENTRIES: usize = 16;
+
 impl Layout {
     pub(super) fn new(program: &Program) -> Self {
         let vertex_columns = HEADER;
@@ -108,8 +111,9 @@ impl Layout {
 
     /// Makes room for one more memo.
     pub(super) fn add_memo(&mut self) -> usize {
-        self.words += MEMO_WORDS;
-        (self.words - MEMO_WORDS - self.memos) / MEMO_WORDS
+        let words = MEMO_WORDS * MEMO_ENTRIES;
+        self.words += words;
+        (self.words - words - self.memos) / words
     }
 
     /// Words of the whole block.
@@ -130,7 +134,7 @@ impl Layout {
     }
 
     pub(super) fn memo(&self, index: usize) -> usize {
-        self.memos + MEMO_WORDS * index
+        self.memos + MEMO_WORDS * MEMO_ENTRIES * index
     }
 }
 

@@ -1,8 +1,8 @@
 //! What functions and statements do, as far as it decides how they are compiled.
 
 use crate::ir::{
-    Argument, Expr, ExprKind, Function, FunctionId, Item, LocalId, Passing, Place, PrintItem, Program, Ring, Stmt,
-    StmtKind, Type,
+    Argument, Expr, ExprKind, Function, FunctionId, Item, Local, LocalId, Passing, Place, PrintItem, Program, Ring,
+    Stmt, StmtKind, Type,
 };
 use crate::mesh::FRESH_CAPACITY;
 
@@ -51,7 +51,7 @@ pub(super) enum Keeping {
     Variable,
     /// Its address is taken.
     Memory,
-    /// It is a face that a loop walks.
+    /// It is a face that a loop walks, or a parameter of type ring while no list changes.
     Face,
 }
 
@@ -104,7 +104,7 @@ impl Facts {
                 }
             }
             let function = &program.functions[i];
-            let faces = faces(function);
+            let faces = faces(function, effects[i]);
             let sets = function.locals.iter().enumerate().any(|(l, local)| {
                 matches!(local.ty, Type::Mesh | Type::Ring)
                     && function.parameters.get(l) != Some(&Passing::Reference)
@@ -129,7 +129,7 @@ impl Facts {
                 inline: inline[i],
                 inline_depth: inline_depth[i],
                 reached: reached[i],
-                keeping: keeping(&program.functions[i], &inline),
+                keeping: keeping(&program.functions[i], &inline, effects[i]),
             })
             .collect();
         let (fresh_capacity, grows) = growth(program);
@@ -259,9 +259,13 @@ fn callees_first(own: &[Own]) -> Order {
     order
 }
 
-/// Which variables are faces that a loop walks.
-fn faces(function: &Function) -> Vec<bool> {
-    let mut faces = vec![false; function.locals.len()];
+/// Which variables are vertices that lie somewhere and stay as they are: faces that a loop walks, and rings passed by
+/// value to a function that changes no list, not even the caller's.
+fn faces(function: &Function, effects: Effects) -> Vec<bool> {
+    let by_value = |(i, local): (usize, &Local)| {
+        local.ty == Type::Ring && function.parameters.get(i) == Some(&Passing::Value) && !effects.lists
+    };
+    let mut faces: Vec<bool> = function.locals.iter().enumerate().map(by_value).collect();
     each(&function.body, &mut |node| {
         if let Node::Stmt(Stmt { kind: StmtKind::ForallFaces { local, .. }, .. }) = node
             && let Some(face) = faces.get_mut(local.0 as usize)
@@ -272,7 +276,7 @@ fn faces(function: &Function) -> Vec<bool> {
     faces
 }
 
-fn keeping(function: &Function, inline: &[bool]) -> Vec<Keeping> {
+fn keeping(function: &Function, inline: &[bool], effects: Effects) -> Vec<Keeping> {
     let mut definitions = vec![0_u32; function.locals.len()];
     let mut addressed = vec![false; function.locals.len()];
     let mut passed = vec![false; function.locals.len()];
@@ -318,7 +322,7 @@ fn keeping(function: &Function, inline: &[bool]) -> Vec<Keeping> {
         },
         Node::Place(_) | Node::Ring(_) => {}
     });
-    let faces = faces(function);
+    let faces = faces(function, effects);
     (0..function.locals.len())
         .map(|i| {
             let reference = function.parameters.get(i) == Some(&Passing::Reference);

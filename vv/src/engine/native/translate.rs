@@ -70,10 +70,13 @@ pub(super) struct Unit<'p> {
 }
 
 /// The signature of a function of the program.
-pub(super) fn signature(function: &Function, mut signature: Signature) -> Translated<Signature> {
+pub(super) fn signature(function: &Function, keeping: &[Keeping], mut signature: Signature) -> Translated<Signature> {
     signature.params.push(AbiParam::new(types::I64));
-    for (local, passing) in function.locals.iter().zip(&function.parameters) {
+    for ((local, passing), &keeping) in function.locals.iter().zip(&function.parameters).zip(keeping) {
         match (local.ty, passing) {
+            (Type::Ring, _) if keeping == Keeping::Face => {
+                signature.params.extend([types::I64, types::I32].map(AbiParam::new));
+            }
             (Type::Mesh, _) => signature.params.push(AbiParam::new(types::I32)),
             (Type::Value(_), Passing::Reference) => signature.params.push(AbiParam::new(types::I64)),
             (Type::Value(ty), Passing::Value) => {
@@ -157,8 +160,15 @@ enum Storage {
     Set(Value),
     /// Index of a list: a variable of type ring.
     List(Value),
-    /// A face that a loop walks.
-    Face(Bounds),
+    /// Vertices that lie somewhere and stay as they are.
+    Face(Bounds, Orbit),
+}
+
+/// Whether vertices are known to be those of a face, which has no side twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Orbit {
+    Yes,
+    No,
 }
 
 /// A function whose statements are being translated: the compiled one, or one that stands in for its call.
@@ -328,6 +338,13 @@ impl<'t, 'p> Translator<'t, 'p> {
                 }
                 (Type::Mesh, None) => Storage::Set(self.new_set()),
                 (Type::Value(ty), None) => self.allocate(ty, keeping[i]),
+                (Type::Ring, Some(_)) if keeping[i] == Keeping::Face => {
+                    let &[start, len] = parameters.get(operands..operands + 2).ok_or_else(wrong_type)? else {
+                        return Err(wrong_type());
+                    };
+                    operands += 2;
+                    Storage::Face(Bounds { start, len, flags: self.regions.listed }, Orbit::No)
+                }
                 (Type::Ring, Some(_)) => {
                     operands += 1;
                     Storage::List(*parameters.get(operands - 1).ok_or_else(wrong_type)?)

@@ -1,6 +1,6 @@
 //! Parameters and functions of the language.
 
-use super::super::context::{Context, MEMO_WORDS};
+use super::super::context::{Context, MEMO_ENTRIES, MEMO_WORDS};
 use super::{Run, light, status, value_of, value_words, words_of};
 use crate::builtins::{Builtin, Random};
 use crate::mesh::Value;
@@ -32,7 +32,9 @@ impl Run<'_> {
             let operands = zeros.get(..memo.builtin.parameters().len()).unwrap_or(&zeros);
             let at_zero = memo.builtin.apply(operands, &mut Random::new(0, 0));
             if let Some(Value::Double(y)) = at_zero {
-                self.set_word(memo.word + MEMO_WORDS - 1, y.to_bits());
+                for entry in 0..MEMO_ENTRIES {
+                    self.set_word(memo.word + MEMO_WORDS * (entry + 1) - 1, y.to_bits());
+                }
             }
         }
     }

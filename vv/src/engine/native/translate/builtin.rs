@@ -6,7 +6,7 @@ use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Value, types};
 use super::{Symbol, Translated, Translator, Val, wrong_type};
 use crate::builtins::{Builtin, Code};
 use crate::engine::native::Mutation;
-use crate::engine::native::context::{self, Memo};
+use crate::engine::native::context::{self, MEMO_ENTRIES, MEMO_WORDS, Memo};
 
 impl Translator<'_, '_> {
     pub(super) fn builtin(&mut self, builtin: Builtin, arguments: &[Val]) -> Translated<Val> {
@@ -102,24 +102,24 @@ impl Translator<'_, '_> {
         self.b.ins().sqrt(square)
     }
 
-    /// Calls a function of one or two doubles, unless its operands are those of the last time.
+    /// Calls a function of one or two doubles, unless it was called with these operands lately.
     ///
     /// In refinement the same few valences ask for the same cosines again and again.
     fn remembered(&mut self, builtin: Builtin, function: usize, operands: &[Value]) -> Translated<Value> {
         let memo = self.unit.layout.add_memo();
         let word = self.unit.layout.memo(memo);
-        let offset = context::byte_offset(word);
         self.unit.memos.push(Memo { builtin, word });
-        let mut same = self.b.ins().iconst(types::I8, 1);
         let mut all = vec![self.b.ins().iconst(types::I64, function as i64)];
-        let mut bits = Vec::new();
-        for (k, &x) in operands.iter().enumerate() {
-            let x_bits = self.b.ins().bitcast(types::I64, MemFlagsData::new(), x);
-            let last = self.load_context(types::I64, offset + 8 * k as i32);
+        all.extend_from_slice(operands);
+        let bits: Vec<Value> =
+            operands.iter().map(|&x| self.b.ins().bitcast(types::I64, MemFlagsData::new(), x)).collect();
+        let entry = self.memo_entry(word, &bits);
+        let flags = self.regions.context;
+        let mut same = self.b.ins().iconst(types::I8, 1);
+        for (k, &x_bits) in bits.iter().enumerate() {
+            let last = self.b.ins().load(types::I64, flags, entry, 8 * k as i32);
             let equal = self.b.ins().icmp(IntCC::Equal, x_bits, last);
             same = if k == 0 { equal } else { self.b.ins().band(same, equal) };
-            bits.push(x_bits);
-            all.push(x);
         }
         if self.mutated(Mutation::MemoIsStale) {
             same = self.b.ins().iconst(types::I8, 1);
@@ -128,17 +128,33 @@ impl Translator<'_, '_> {
         let (done, result) = self.block_with(&[types::F64]);
         self.b.ins().brif(same, again, &[], compute, &[]);
         self.continue_in(again);
-        let kept = self.load_context(types::F64, offset + 16);
+        let kept = self.b.ins().load(types::F64, flags, entry, 16);
         self.jump_with(done, &[kept]);
         self.continue_in(compute);
         let symbol = if operands.len() == 1 { Symbol::CallD1 } else { Symbol::CallD2 };
         let computed = self.call_with(symbol, &all).ok_or_else(wrong_type)?;
         for (k, &x_bits) in bits.iter().enumerate() {
-            self.store_context(x_bits, offset + 8 * k as i32);
+            self.b.ins().store(flags, x_bits, entry, 8 * k as i32);
         }
-        self.store_context(computed, offset + 16);
+        self.b.ins().store(flags, computed, entry, 16);
         self.jump_with(done, &[computed]);
         self.continue_in(done);
         Ok(result[0])
+    }
+
+    /// Address of the entry of a memo that operands choose: the high bits of a product mix all of theirs.
+    fn memo_entry(&mut self, word: usize, operands: &[Value]) -> Value {
+        const MIX: i64 = 0x9e37_79b9_7f4a_7c15_u64.cast_signed();
+        let mut hash = operands[0];
+        for &x in &operands[1..] {
+            let turned = self.b.ins().rotl_imm_u(hash, 27);
+            hash = self.b.ins().bxor(turned, x);
+        }
+        let mix = self.b.ins().iconst(types::I64, MIX);
+        let mixed = self.b.ins().imul(hash, mix);
+        let index = self.b.ins().ushr_imm_u(mixed, i64::from(64 - MEMO_ENTRIES.ilog2()));
+        let offset = self.b.ins().imul_imm_s(index, 8 * MEMO_WORDS as i64);
+        let entries = self.b.ins().iadd_imm_s(self.context, i64::from(context::byte_offset(word)));
+        self.b.ins().iadd(entries, offset)
     }
 }

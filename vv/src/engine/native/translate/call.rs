@@ -3,11 +3,12 @@
 use cranelift_codegen::ir::{InstBuilder, Value, types};
 use cranelift_module::Module;
 
-use super::{Frame, Storage, Symbol, Translated, Translator, Val, clif_types, wrong_type};
+use super::known::Bounds;
+use super::{Frame, Orbit, Storage, Symbol, Translated, Translator, Val, clif_types, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::engine::native::effects::{Node, each};
-use crate::ir::{Argument, Function, FunctionId, Stmt, StmtKind, Type};
+use crate::engine::native::effects::{Keeping, Node, each};
+use crate::ir::{Argument, ExprKind, Function, FunctionId, Stmt, StmtKind, Type};
 use crate::source::Span;
 
 impl<'p> Translator<'_, 'p> {
@@ -15,13 +16,13 @@ impl<'p> Translator<'_, 'p> {
     pub(super) fn call_function(&mut self, id: FunctionId, arguments: &'p [Argument], span: Span) -> Translated<Val> {
         let function = self.program.function(id).ok_or_else(wrong_type)?;
         let facts = self.unit.facts.function(id).ok_or_else(wrong_type)?;
-        let (inline, effects) = (facts.inline, facts.effects);
+        let (inline, effects, keeping) = (facts.inline, facts.effects, facts.keeping.clone());
         if inline {
             return self.stand_in(id, function, arguments, span);
         }
         let (mut mark, mut list_mark) = (None, None);
         let mut operands = vec![self.context];
-        for argument in arguments {
+        for (i, argument) in arguments.iter().enumerate() {
             match argument {
                 Argument::Value(e) if e.ty == Type::Mesh => {
                     if mark.is_none() {
@@ -31,6 +32,11 @@ impl<'p> Translator<'_, 'p> {
                     let copy = self.call(Symbol::SetCopy, &[set]).ok_or_else(wrong_type)?;
                     self.fail_if_no_set(copy);
                     operands.push(copy);
+                }
+                Argument::Value(e) if e.ty == Type::Ring && keeping.get(i) == Some(&Keeping::Face) => {
+                    let (Bounds { start, len, .. }, mark) = self.list(e)?;
+                    list_mark = list_mark.or(mark);
+                    operands.extend([start, len]);
                 }
                 Argument::Value(e) if e.ty == Type::Ring => {
                     if list_mark.is_none() {
@@ -104,9 +110,22 @@ impl<'p> Translator<'_, 'p> {
         span: Span,
     ) -> Translated<Val> {
         let keeping = self.unit.facts.function(id).ok_or_else(wrong_type)?.keeping.clone();
+        let mut list_mark = None;
         let mut storage = Vec::with_capacity(function.locals.len());
         for (i, argument) in arguments.iter().enumerate() {
             let place = match argument {
+                Argument::Value(e) if e.ty == Type::Ring => {
+                    let orbit = match e.kind {
+                        ExprKind::Local(local) => match self.storage(local)? {
+                            Storage::Face(_, orbit) => orbit,
+                            _ => Orbit::No,
+                        },
+                        _ => Orbit::No,
+                    };
+                    let (bounds, mark) = self.list(e)?;
+                    list_mark = list_mark.or(mark);
+                    Storage::Face(bounds, orbit)
+                }
                 Argument::Value(e) => {
                     let value = self.expression(e)?;
                     let Some(Type::Value(ty)) = function.locals.get(i).map(|l| l.ty) else { return Err(wrong_type()) };
@@ -147,6 +166,7 @@ impl<'p> Translator<'_, 'p> {
             }
             self.continue_in(exit);
         }
+        self.drop_lists(list_mark);
         let parts: Vec<Value> = result.into_iter().map(|v| self.b.use_var(v)).collect();
         Ok(Val::from_parts(&parts))
     }

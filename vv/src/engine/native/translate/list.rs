@@ -38,7 +38,7 @@ impl<'p> Translator<'_, 'p> {
     /// Where the vertices of a variable lie.
     pub(super) fn list_bounds(&mut self, local: LocalId) -> Translated<Bounds> {
         match self.storage(local)? {
-            Storage::Face(bounds) => Ok(bounds),
+            Storage::Face(bounds, _) => Ok(bounds),
             Storage::List(index) => Ok(self.bounds_of_list(index)),
             _ => Err(wrong_type()),
         }

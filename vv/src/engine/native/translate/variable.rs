@@ -74,7 +74,7 @@ impl<'p> Translator<'_, 'p> {
                 self.store_value(value, self.regions.locals, address, 0);
                 storage
             }
-            Storage::Set(_) | Storage::List(_) | Storage::Face(_) => storage,
+            Storage::Set(_) | Storage::List(_) | Storage::Face(..) => storage,
         }
     }
 
@@ -102,7 +102,7 @@ impl<'p> Translator<'_, 'p> {
                 let flags = self.regions.locals;
                 self.load_value(ty, flags, address, 0)
             }
-            Storage::None | Storage::Set(_) | Storage::List(_) | Storage::Face(_) => {
+            Storage::None | Storage::Set(_) | Storage::List(_) | Storage::Face(..) => {
                 return Err(Refused("a variable is used before it is declared".into()));
             }
         })

@@ -5,7 +5,7 @@ use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, StackSlotData, Sta
 
 use super::known::{Bounds, Fact, Found, Key};
 use super::ring::Source;
-use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
+use super::{Loop, Orbit, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
 use crate::engine::native::effects::{Effects, Node, each_in};
@@ -148,9 +148,13 @@ impl<'p> Translator<'_, 'p> {
             Source::Of { old: true, .. } => (effects.synchronizes, true),
             Source::Of { old: false, .. } => (effects.edits, true),
             Source::Variable(local) => {
-                let face = matches!(self.storage(local)?, Storage::Face(_));
+                let face = matches!(self.storage(local)?, Storage::Face(..));
                 (effects.lists && !face, false)
             }
+        };
+        let orbit = match source {
+            Source::Variable(local) => matches!(self.storage(local)?, Storage::Face(_, Orbit::Yes)),
+            Source::Of { .. } => false,
         };
         let exit = self.b.create_block();
         let bytes = self.bytes_of(bounds.len);
@@ -179,7 +183,7 @@ impl<'p> Translator<'_, 'p> {
                 }
             }
             // A side of a face is a slot of its vertex' ring, in which its end stands once.
-            Source::Variable(_) if !moves => {
+            Source::Variable(_) if orbit => {
                 if let &[(p, at), (q, _)] = sides {
                     t.known.learn(Key::Side { p, q, start: first }, Fact::At(at));
                 }
@@ -272,7 +276,7 @@ impl<'p> Translator<'_, 'p> {
         let start = self.b.ins().iadd(corners, bytes);
         let len = self.b.ins().isub(end, begin);
         if let Some(storage) = self.frame_mut()?.storage.get_mut(local.0 as usize) {
-            *storage = Storage::Face(Bounds { start, len, flags });
+            *storage = Storage::Face(Bounds { start, len, flags }, Orbit::Yes);
         }
         self.frame_mut()?.loops.push(Loop { next, exit, walk: Walk::Faces(depth) });
         let goes_on = self.block(body)?;
