@@ -1,11 +1,14 @@
 //! `vv mesh info`
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
+use vv::builtins::type_name;
 use vv::mesh::faces::faces;
 use vv::mesh::statistics::{Statistics, statistics};
+use vv::mesh::{Mesh, Property, Type};
 
 use app::evaluation::within;
 
@@ -28,11 +31,40 @@ pub struct Arguments {
 }
 
 #[derive(Serialize)]
+struct Properties {
+    vertex: BTreeMap<String, Type>,
+    edge: BTreeMap<String, Type>,
+    mesh: BTreeMap<String, Type>,
+}
+
+impl Properties {
+    fn of(mesh: &Mesh) -> Self {
+        let types = |properties: &[Property]| properties.iter().map(|p| (p.name.clone(), p.values.ty())).collect();
+        Self {
+            vertex: types(mesh.vertex_properties()),
+            edge: types(mesh.edge_properties()),
+            mesh: mesh.mesh_properties().iter().map(|(name, value)| (name.clone(), value.ty())).collect(),
+        }
+    }
+
+    /// As programs declare them: `vertex { vec color; };`.
+    fn rows(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let rows = [("vertex", &self.vertex), ("edge", &self.edge), ("mesh", &self.mesh)];
+        rows.into_iter().filter(|(_, types)| !types.is_empty()).map(|(what, types)| {
+            let declared: Vec<_> = types.iter().map(|(name, ty)| format!("{} {name};", type_name(*ty))).collect();
+            (what, format!("{{ {} }};", declared.join(" ")))
+        })
+    }
+}
+
+#[derive(Serialize)]
 struct Info {
     #[serde(flatten)]
     statistics: Statistics,
     /// Least and greatest coordinates; absent without vertices.
     bounds: Option<[[f64; 3]; 2]>,
+    /// Names and types of the values that the file gives to vertices, edges and the whole.
+    properties: Properties,
     warnings: Vec<String>,
 }
 
@@ -50,7 +82,7 @@ pub fn info(arguments: &Arguments) -> Result<(), Exit> {
         positions.fold([first, first], |[least, greatest], p| [least.min(p), greatest.max(p)]).map(|p| p.to_array())
     });
     let warnings = warnings_of(&warnings);
-    let info = Info { statistics, bounds, warnings };
+    let info = Info { statistics, bounds, properties: Properties::of(&mesh), warnings };
     let text = if arguments.json { json(&info) } else { table(&info) };
     write_stdout(text.as_bytes(), &reporter)
 }
@@ -61,7 +93,7 @@ pub fn json(object: &impl Serialize) -> String {
     serde_json::to_string_pretty(object).unwrap_or_default() + "\n"
 }
 
-fn table(Info { statistics, bounds, .. }: &Info) -> String {
+fn table(Info { statistics, bounds, properties, .. }: &Info) -> String {
     let counts = |pairs: &[(usize, usize)]| {
         pairs.iter().map(|(what, count)| format!("{what}: {count}")).collect::<Vec<_>>().join(", ")
     };
@@ -83,6 +115,7 @@ fn table(Info { statistics, bounds, .. }: &Info) -> String {
         let [least, greatest] = bounds.map(|[x, y, z]| format!("({x}, {y}, {z})"));
         rows.push(("bounds", format!("{least} to {greatest}")));
     }
+    rows.extend(properties.rows());
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
     rows.iter().map(|(name, value)| format!("{name:width$}  {value}\n")).collect()
 }

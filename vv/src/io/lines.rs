@@ -109,6 +109,11 @@ impl<'a> Words<'a> {
         self.lines.clone().filter(|(_, line)| words(line).next().is_some()).count() as u64
     }
 
+    /// How many words stand on the next line that has some.
+    pub(super) fn words_on_next_line(&self) -> usize {
+        self.lines.clone().map(|(_, line)| words(line).count()).find(|&n| n > 0).unwrap_or(0)
+    }
+
     /// Where the last word stands.
     pub(super) fn place(&self) -> Place {
         Place::Text { line: self.line, column: column(self.whole, self.word).filter(|_| !self.word.is_empty()) }

@@ -44,7 +44,7 @@ impl Extras {
 /// missing), the counts, the vertices and the faces. Comments and blank lines may stand anywhere.
 ///
 /// One vertex or face stands on a line, and what else follows on it is passed over; a file with too few lines for that
-/// is read as a stream of words.
+/// is read as a stream of words. Where the first vertex has two coordinates alone, all have, and lie in the plane z = 0.
 pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic>), ReadError> {
     let mut words = Words::new(text, COMMENT);
     let extras = header(&mut words)?;
@@ -56,6 +56,7 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     let stream = words.lines_left() < vertex_count.saturating_add(u64::from(face_count > 0));
     let mut ignored = !stream && words.finish_line() > 0;
 
+    let flat = !stream && vertex_count > 0 && words.words_on_next_line() == 2;
     let mut positions = Vec::new();
     let (mut colors, mut greatest) = (Colors::default(), 0.0);
     let mut rest = Vec::new();
@@ -63,7 +64,7 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
         stop.check()?;
         let n = positions.len() as u64;
         let mut p = [0.0; 3];
-        for (k, x) in p.iter_mut().enumerate() {
+        for (k, x) in p.iter_mut().enumerate().take(if flat { 2 } else { 3 }) {
             let word = if stream || k == 0 { words.next() } else { words.next_on_line() };
             let Some(word) = word else { return Err(ends(&words, stream, k, n, vertex_count)) };
             *x = number(word).map_err(|why| invalid(words.place(), format!("vertex {}: {why}", n + 1)))?;
@@ -73,6 +74,10 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
             rest.extend((0..extras.len()).map_while(|_| words.next()));
         } else {
             rest.extend(std::iter::from_fn(|| words.next_on_line()));
+        }
+        if flat && !rest.is_empty() {
+            let message = format!("vertex {} has more coordinates than the two of the first", n + 1);
+            return Err(invalid(words.line(), message));
         }
         let color = extras.color(&rest);
         ignored |= rest.len() > if color.is_some() { 4 } else { 0 };
@@ -124,6 +129,9 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     polygons.values.vertices.extend(colors.property(greatest));
 
     let mut diagnostics = Vec::new();
+    if flat {
+        diagnostics.push(note("the vertices have two coordinates; the third is 0"));
+    }
     if ignored {
         diagnostics.push(note("normals, texture coordinates and colours of faces are not read"));
     }
@@ -181,9 +189,7 @@ fn ends(words: &Words<'_>, stream: bool, k: usize, n: u64, vertex_count: u64) ->
     let line = words.line();
     match k {
         _ if stream || k == 0 => invalid(line, format!("the file ends after {n} of {vertex_count} vertices")),
-        2 => {
-            invalid(line, format!("vertex {} has two coordinates; flat OFF is not read, write 0 for the third", n + 1))
-        }
+        2 => invalid(line, format!("vertex {} has two coordinates, not three", n + 1)),
         _ => invalid(line, format!("vertex {} has one coordinate, not three", n + 1)),
     }
 }

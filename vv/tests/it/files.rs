@@ -413,6 +413,19 @@ fn off_colours_are_kept() {
 }
 
 #[test]
+fn off_may_be_flat() {
+    let note = "1 2 3\nNote: the vertices have two coordinates; the third is 0";
+    check_off("OFF\n3 1 3\n0 0\n1 0\n0 1\n3 0 1 2\n", note);
+    check_off("OFF\n3 1 3\n# a\n\n0 0 # b\n1 0\n0 1\n3 0 1 2\n", note);
+    check_off("OFF\n3 1 3\n0 0\n1\n0 1\n3 0 1 2\n", "error line 4: vertex 2 has one coordinate, not three");
+    check_off(
+        "OFF\n3 1 3\n0 0\n1 0 0\n0 1\n3 0 1 2\n",
+        "error line 4: vertex 2 has more coordinates than the two of the first",
+    );
+    check_off("OFF\n3 1 3\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "error line 4: vertex 2 has two coordinates, not three");
+}
+
+#[test]
 fn off_that_is_not_read_is_named() {
     for word in ["4OFF", "nOFF", "4nOFF"] {
         let message =
@@ -420,10 +433,6 @@ fn off_that_is_not_read_is_named() {
         check_off(&format!("{word}\n3 1 3\n"), &message);
     }
     check_off("OFF BINARY\n\0\u{3}", "error line 1: binary OFF is not read; save the file as text");
-    check_off(
-        "OFF\n3 1 3\n0 0\n1 0\n0 1\n3 0 1 2\n",
-        "error line 3: vertex 1 has two coordinates; flat OFF is not read, write 0 for the third",
-    );
     check_off("<html>", "error line 1: this is no OFF file: it begins with `<html>`, not with OFF");
     assert_eq!(
         outcome(&[0xff, 0xfe, 0, 10, 32], Format::Off, false),
@@ -474,20 +483,31 @@ fn off_counts_that_lie_cost_nothing() {
 }
 
 /// What each file under `assets/meshes/bad` is there for: its faces, or how the message begins.
-const BAD: [(&str, &str); 13] = [
+const BAD: [(&str, &str); 24] = [
+    ("big-endian.ply", "1 3 2 / 1 2 4 / 1 4 3 / 2 3 4"),
     ("bow-tie.obj", "1 2 3 / 1 4 5"),
+    ("colors-and-normals.off", "Note: normals, texture coordinates and colours of faces are not read"),
+    ("comments.off", "1 2 3"),
     ("corner-out-of-range.off", "error line 8: face 2 has a corner at vertex 4, but they go from 0 to 3"),
     ("duplicate-face.obj", "Warning: 1 duplicate face was dropped"),
+    ("flat.off", "Note: the vertices have two coordinates; the third is 0"),
     ("flipped-face.obj", "Warning: 1 face ran round the other way than its neighbours and was turned over"),
     ("heptagon.off", "1 2 3 4 5 6 7"),
     ("isolated-vertex.obj", "Warning: 1 vertex is in no face; dropped"),
+    ("klein.off", "error line 27: the surface is not orientable: a band of 5 faces comes back the other way round"),
     ("lying-counts.off", "error line 6: the file ends after 4 of 1000000000 vertices"),
     ("mobius.obj", "error line 10: the surface is not orientable: a band of 5 faces comes back the other way round"),
     ("nonmanifold-edge.obj", "Warning: 1 edge has more than two faces; 2 vertices were duplicated"),
     ("not-finite.obj", "error line 3: `nan` is not finite"),
+    ("parallel-edges.off", "Warning: 1 edge has more than two faces; 2 vertices were duplicated"),
     ("pillow.off", "Warning: two faces lie back to back"),
+    ("repeated-corner.obj", "Warning: 2 faces named a corner twice in succession; the second was dropped"),
+    ("single-triangle.stl", "1 2 3"),
+    ("slashes.obj", "1 2 3 / 1 3 4"),
+    ("three-open-fans.obj", "Warning: three or more open fans of faces meet in 1 vertex"),
     ("truncated.obj", "error line 10: the file ends within a face, after `f 2 6`; it was probably cut off"),
     ("two-closed-fans.obj", "Warning: several fans of faces met in one vertex; 1 vertex was split off"),
+    ("two-corners.off", "Warning: 3 faces of fewer than three corners were dropped"),
 ];
 
 #[test]

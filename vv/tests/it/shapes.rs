@@ -208,7 +208,7 @@ fn boxes(n: [i32; 3], full: impl Fn([i32; 3]) -> bool, place: impl Fn(DVec3) -> 
 /// One polygon with five points.
 fn star() -> Shape {
     let point = |i: u32| {
-        let (angle, r) = (TAU * (f64::from(i) / 10.0 + 0.25), if i % 2 == 0 { 1.0 } else { 0.45 });
+        let (angle, r) = (TAU * (f64::from(i) / 10.0 + 0.25), if i.is_multiple_of(2) { 1.0 } else { 0.45 });
         round(dvec3(r * angle.cos(), r * angle.sin(), 0.0))
     };
     ((0..10).map(point).collect(), vec![(0..10).collect()])

@@ -16,6 +16,20 @@ fn info_is_a_table_or_an_object() {
 }
 
 #[test]
+fn info_says_which_values_a_program_can_declare() {
+    let text = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt crease 2/1/0 0 1 2\nt corner 1/1/0 2 3\n";
+    let folder = Folder::with(&[("m.obj", text)]);
+    let table = folder.check("mesh info m.obj", 0, "").stdout;
+    for row in
+        ["vertex                { vec color; double sharpness; };\n", "edge                  { double sharpness; };\n"]
+    {
+        assert!(table.contains(row), "{table}");
+    }
+    let info = json(&folder.check("mesh info m.obj --json", 0, "").stdout);
+    assert_eq!(info["properties"]["vertex"], json(r#"{"color": "vec", "sharpness": "double"}"#));
+}
+
+#[test]
 fn conversion_keeps_vertices_and_faces() {
     let folder = Folder::with(&[]);
     folder.check("mesh convert octahedron.obj -o a.off", 0, "");

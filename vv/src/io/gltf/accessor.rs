@@ -18,6 +18,7 @@ const PER_BYTE: u64 = 8;
 pub(super) struct Data<'a> {
     document: &'a Document,
     buffers: Vec<Cow<'a, [u8]>>,
+    size: u64,
     left: u64,
     stop: &'a Stop,
 }
@@ -100,7 +101,8 @@ impl<'a> Data<'a> {
         stop: &'a Stop,
     ) -> Result<Self, ReadError> {
         let buffers = document.buffers.iter().enumerate().map(|(i, b)| buffer(b, i, blob)).collect::<Result<_, _>>()?;
-        Ok(Self { document, buffers, left: FREE.saturating_add(PER_BYTE.saturating_mul(size as u64)), stop })
+        let size = size as u64;
+        Ok(Self { document, buffers, size, left: FREE.saturating_add(PER_BYTE.saturating_mul(size)), stop })
     }
 
     /// Takes room for so many numbers.
@@ -130,6 +132,9 @@ impl<'a> Data<'a> {
         let layout = Layout { component, width, count, normalized: accessor.normalized };
         let mut numbers = match accessor.buffer_view {
             Some(view) => self.view(view, accessor.byte_offset, &layout).map_err(|what| wrong(&what))?,
+            None if accessor.count > self.size => {
+                return Err(wrong("it has no data, but more values than the file bytes"));
+            }
             None => vec![0.0; count * width],
         };
         if let Some(sparse) = &accessor.sparse {

@@ -168,6 +168,10 @@ fn errors_say_what_is_wrong() {
         accessor("count", json!(u64::MAX)),
         "error: the scene is far larger than its file, by instances or shared data",
     );
+    check(
+        |d| d["accessors"][0] = json!({ "componentType": 5126, "type": "VEC3", "count": 1_000_000 }),
+        "error: accessor 0: it has no data, but more values than the file bytes",
+    );
     check(accessor("byteOffset", json!(u64::MAX)), "error: accessor 0: it reaches beyond buffer view 0");
     check(accessor("bufferView", json!(7)), "error: accessor 0: there is no buffer view 7");
     check(accessor("componentType", json!(1)), "error: accessor 0: its component type is unknown");

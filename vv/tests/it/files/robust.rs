@@ -1,4 +1,5 @@
-//! Files of any bytes: nothing panics, nothing grows without bound, and what is read is a valid mesh.
+//! Files of any bytes: nothing panics, nothing grows without bound, and what is read is a valid mesh. `PROPTEST_CASES`
+//! sets how many.
 
 use proptest::prelude::*;
 use vv::mesh::validate::validate;
@@ -105,8 +106,6 @@ fn apply(bytes: &mut Vec<u8>, change: &Change) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
-
     #[test]
     fn changed_files_are_read_or_refused(file in 0..10usize, changes in prop::collection::vec(change(), 1..6)) {
         let (format, mut bytes) = files().swap_remove(file);
