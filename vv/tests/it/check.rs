@@ -28,12 +28,16 @@ vec vertex_point(vertex p);
 void refine(mesh& S) { synchronize S; forall p in S p$pos = vertex_point(p); }
 ";
 
-/// Compiles a program that may include `insert.vv` and `host.vv`.
+/// Compiles a program that may include `insert.vv`, `host.vv` and what ships.
 fn compiled(text: &str) -> Compilation {
     compile("main.vv", text, &mut |_, path| match path {
         "insert.vv" => Ok(Included { name: path.to_owned(), text: INSERT.to_owned() }),
         "host.vv" => Ok(Included { name: "<vv>/host.vv".to_owned(), text: HOST.to_owned() }),
-        _ => Err(format!("there is no file `{path}`")),
+        _ => {
+            let shipped = format!("{}/../assets/programs/{path}", env!("CARGO_MANIFEST_DIR"));
+            let text = std::fs::read_to_string(shipped).map_err(|_| format!("there is no file `{path}`"))?;
+            Ok(Included { name: path.to_owned(), text })
+        }
     })
 }
 

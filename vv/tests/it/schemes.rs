@@ -47,13 +47,11 @@ impl Scheme {
         Self::changed(file, rule, "", "")
     }
 
-    /// With a fault: the first `from` in its text, which must be there, becomes `to`.
+    /// With a fault: the first `from` in its text or in one that it includes, which must be there, becomes `to`.
     #[track_caller]
     pub fn changed(file: &str, rule: &'static str, from: &str, to: &str) -> Self {
-        let folder = assets_folder().join("programs");
-        let text = std::fs::read_to_string(folder.join(file)).unwrap();
-        assert!(text.contains(from), "`{from}` is not in {file}");
-        let program = compile(file, &text.replacen(from, to, 1));
+        let text = std::fs::read_to_string(assets_folder().join("programs").join(file)).unwrap();
+        let program = compile_changed(file, &text, from, to);
         assert!(program.rule(rule).is_some(), "{file} has no rule {rule}");
         let native = Machine::new(program, Engine::Native);
         assert_eq!(native.refusal(), None, "{file}");
@@ -136,12 +134,24 @@ fn shape(mesh: &Mesh) -> Refined {
 
 #[track_caller]
 fn compile(name: &str, text: &str) -> Arc<Program> {
+    compile_changed(name, text, "", "")
+}
+
+#[track_caller]
+fn compile_changed(name: &str, text: &str, from: &str, to: &str) -> Arc<Program> {
     let folder = assets_folder().join("programs");
+    let mut changed = text.contains(from);
+    let text = text.replacen(from, to, 1);
     let mut include = |_: &str, path: &str| {
-        let text = std::fs::read_to_string(folder.join(path)).map_err(|e| e.to_string())?;
+        let mut text = std::fs::read_to_string(folder.join(path)).map_err(|e| e.to_string())?;
+        if !changed {
+            changed = text.contains(from);
+            text = text.replacen(from, to, 1);
+        }
         Ok(vv::Included { name: path.to_owned(), text })
     };
-    let compilation = vv::compile(name, text, &mut include);
+    let compilation = vv::compile(name, &text, &mut include);
+    assert!(changed, "`{from}` is not in {name}");
     assert!(compilation.diagnostics.is_empty(), "{name}: {:#?}", compilation.diagnostics);
     compilation.program.unwrap()
 }

@@ -9,6 +9,9 @@ use crate::mesh::FRESH_CAPACITY;
 /// Functions up to this size stand in for their calls.
 const INLINE_SIZE: usize = 100;
 
+/// As [`INLINE_SIZE`], for functions that are called at one place: the rules that refinements ask for are such.
+const INLINE_ONCE_SIZE: usize = 1000;
+
 /// What a piece of a program may do, called functions included.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Effects {
@@ -93,6 +96,10 @@ impl Facts {
             }
         }
         let order = callees_first(&own);
+        let mut calls = vec![0_u32; n];
+        for &c in own.iter().flat_map(|o| &o.calls) {
+            calls[c] += 1;
+        }
         let mut inline = vec![false; n];
         let mut inline_depth = vec![0; n];
         let mut size: Vec<usize> = own.iter().map(|o| o.size).collect();
@@ -111,7 +118,7 @@ impl Facts {
                     && !faces[l]
             });
             inline[i] = !order.cyclic[i]
-                && size[i] <= INLINE_SIZE
+                && size[i] <= if calls[i] == 1 { INLINE_ONCE_SIZE } else { INLINE_SIZE }
                 && !sets
                 && !matches!(function.returns, Type::Mesh | Type::Ring);
         }

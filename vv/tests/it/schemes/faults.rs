@@ -35,7 +35,7 @@ fn faults_in_loop_are_found() {
         ("`p$pos + `q$pos) / 2.0", "`p$pos + `p$pos) / 2.0"),
         ("3.0/8.0 * (`p$pos", "4.0/8.0 * (`p$pos"),
         ("nextto x in q, q, prevto x in q", "prevto x in q, q, nextto x in q"),
-        ("gaps p == 0", "gaps p == 2"),
+        ("gaps `p == 1", "gaps `p == 2"),
     ];
     check("loop.vv", "loop", Around::Triangles, |s| published::loop_(s, false), &faults);
 }
