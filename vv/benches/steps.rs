@@ -21,48 +21,6 @@ fn main() {
     divan::main();
 }
 
-/// Catmull and Clark's scheme on closed meshes: edge points, then face points by walking each face from its oldest
-/// corner, then positions.
-const CATMULL_CLARK: &str = "
-vertex { vertex from; vertex to; };
-vertex across(vertex e, vertex p) { return e$from == p ? e$to : e$from; }
-void step(mesh& S) {
-  synchronize S;
-  mesh E, F;
-  forall p in S { forall q in `p {
-    if (p < q) continue;
-    vertex e; make {p, q} nb_of e; replace p with e in q; replace q with e in p;
-    e$from = p; e$to = q; add e to E;
-  } }
-  forall p in S { forall first in p {
-    vertex c = p, e = first; int n = 0; vec sum;
-    do {
-      c = across(e, c); e = prevto e in c; sum += c$pos; n++;
-    } while (p < c);
-    if (c != p) continue;
-    vertex f; f$pos = sum / n; add f to F;
-    make {first} nb_of f;
-    e = first;
-    do {
-      c = across(e, c);
-      splice f after c in e;
-      e = prevto e in c;
-      if (c != p) splice e before first in f;
-    } while (c != p);
-  } }
-  forall e in E {
-    vertex p = e$from, q = e$to;
-    e$pos = (p$pos + q$pos + (nextto p in e)$pos + (prevto p in e)$pos) / 4;
-  }
-  forall p in S {
-    double n = valence p;
-    vec faces, middles;
-    forall e in p { faces += (nextto p in e)$pos; middles += (`p$pos + `(across(e, p))$pos) / 2; }
-    p$pos = (faces / n + 2 * middles / n + (n - 3) * `p$pos) / n;
-  }
-  merge S with E; merge S with F;
-}";
-
 /// `engine` and how often the mesh was refined before.
 const ARGUMENTS: [(Engine, u64); 5] =
     [(Engine::Interpret, 4), (Engine::Interpret, 5), (Engine::Native, 4), (Engine::Native, 6), (Engine::Native, 7)];
@@ -94,7 +52,12 @@ fn sqrt3(bencher: Bencher, case: &str) {
 
 #[divan::bench(args = ARGUMENTS.map(show))]
 fn catmull_clark(bencher: Bencher, case: &str) {
-    measure(bencher, case, CATMULL_CLARK, "cube", 1);
+    measure(bencher, case, &asset("catmull-clark"), "cube", 1);
+}
+
+#[divan::bench(args = ARGUMENTS.map(show))]
+fn doo_sabin(bencher: Bencher, case: &str) {
+    measure(bencher, case, &asset("doo-sabin"), "cube", 1);
 }
 
 fn show((engine, steps): (Engine, u64)) -> String {
