@@ -35,6 +35,7 @@ use std::num::NonZeroU32;
 use glam::DVec3;
 
 pub use column::Column;
+pub(crate) use column::spare;
 pub use property::{Property, Type, Value, Values};
 pub use ring::{EditError, Ring};
 pub use set::VertexSet;

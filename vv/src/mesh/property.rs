@@ -149,7 +149,7 @@ impl Values {
 
     /// Stores a value; no effect past the end or for a value of another type.
     pub fn set(&mut self, index: usize, value: Value) {
-        fn put<T: Clone>(column: &mut Column<T>, index: usize, value: T) {
+        fn put<T: Clone + Send>(column: &mut Column<T>, index: usize, value: T) {
             if let Some(slot) = column.edit().get_mut(index) {
                 *slot = value;
             }
@@ -189,7 +189,7 @@ impl Values {
     /// zeros and ones as bools. Other types are not converted.
     #[must_use]
     pub fn converted(&self, to: Type) -> Option<Self> {
-        fn each<T, U>(column: &Column<T>, convert: impl Fn(&T) -> Option<U>) -> Option<Column<U>> {
+        fn each<T: Send, U: Send>(column: &Column<T>, convert: impl Fn(&T) -> Option<U>) -> Option<Column<U>> {
             column.iter().map(convert).collect::<Option<Vec<_>>>().map(Column::from)
         }
         let whole = |x: &f64| (*x == x.trunc() && x.abs() < WHOLE).then_some(*x as i64);
@@ -205,7 +205,7 @@ impl Values {
 
     /// The values whose flag is set.
     pub(super) fn keep(&self, flags: &[bool]) -> Self {
-        fn kept<T: Clone>(c: &Column<T>, flags: &[bool]) -> Column<T> {
+        fn kept<T: Clone + Send>(c: &Column<T>, flags: &[bool]) -> Column<T> {
             c.iter().zip(flags).filter(|&(_, &keep)| keep).map(|(x, _)| x.clone()).collect::<Vec<_>>().into()
         }
         match self {

@@ -2,10 +2,23 @@
 
 use super::super::context::{Context, PADDING, RawList, RawSet};
 use super::{List, Run, guard, status};
-use crate::mesh::{Column, Head, Mesh, Values, Vertex, VertexSet};
+use crate::mesh::{Column, Head, Mesh, Values, Vertex, VertexSet, spare};
 
 /// Bytes a vertex needs beside its properties, when memory is counted.
 const VERTEX_BYTES: usize = 12 + 24 + 6 * 4;
+
+/// Runs `$body` with `$column` bound to the typed column inside `$values`.
+macro_rules! on_column {
+    ($values:expr, $column:ident => $body:expr) => {
+        match $values {
+            Values::Bool($column) => $body,
+            Values::Int($column) => $body,
+            Values::Double($column) => $body,
+            Values::Vec($column) => $body,
+            Values::Vertex($column) => $body,
+        }
+    };
+}
 
 impl Run<'_> {
     /// Copies arrays that others share; `false` if there is not enough memory allowed for that.
@@ -234,12 +247,12 @@ impl Run<'_> {
         }
         let arrays = self.mesh.arrays();
         let (n, slots) = (arrays.heads.len(), arrays.slots.len());
-        // What was reserved and not used goes back.
-        arrays.heads.edit().shrink_to(n);
-        arrays.positions.edit().shrink_to(n);
-        arrays.slots.edit().shrink_to(slots + PADDING);
+        // What was reserved and not used goes back, unless it is little: then the array serves the next run as it is.
+        shrink(arrays.heads, n);
+        shrink(arrays.positions, n);
+        shrink(arrays.slots, slots + PADDING);
         for property in arrays.vertex_properties {
-            shrink_values(&mut property.values);
+            on_column!(&mut property.values, c => shrink(c, n));
         }
         self.mesh
     }
@@ -256,10 +269,8 @@ pub(super) extern "C" fn grow_slots(context: *mut Context, more: u64) -> u32 {
 /// The rings of a mesh, one after the other in order, each with room for twice as many vertices: a program that splices
 /// into most of them then moves none.
 fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>, Column<Option<Vertex>>) {
-    let mut heads: Vec<Head> = Vec::with_capacity(vertices);
-    let mut arena: Vec<Option<Vertex>> = Vec::with_capacity(slots);
-    advise_huge_pages(heads.as_ptr().cast(), heads.capacity() * size_of::<Head>());
-    advise_huge_pages(arena.as_ptr().cast(), arena.capacity() * size_of::<Option<Vertex>>());
+    let mut heads: Vec<Head> = roomy(vertices);
+    let mut arena: Vec<Option<Vertex>> = roomy(slots);
     for head in mesh.heads() {
         let ring = mesh.slots().get(head.range()).unwrap_or(&[]);
         let capacity = 2 * head.len;
@@ -270,25 +281,11 @@ fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>
     (heads.into(), arena.into())
 }
 
-/// Runs `$body` with `$column` bound to the typed column inside `$values`.
-macro_rules! on_column {
-    ($values:expr, $column:ident => $body:expr) => {
-        match $values {
-            Values::Bool($column) => $body,
-            Values::Int($column) => $body,
-            Values::Double($column) => $body,
-            Values::Vec($column) => $body,
-            Values::Vertex($column) => $body,
-        }
-    };
-}
-
 /// Makes an array unshared, with room for so many elements.
-fn own_column<T: Copy>(column: &mut Column<T>, capacity: usize) {
+fn own_column<T: Copy + Send>(column: &mut Column<T>, capacity: usize) {
     let capacity = capacity.max(column.len());
     if column.is_shared() {
-        let mut copy: Vec<T> = Vec::with_capacity(capacity);
-        advise_huge_pages(copy.as_ptr().cast(), capacity * size_of::<T>());
+        let mut copy = roomy(capacity);
         copy.extend_from_slice(column);
         *column = Column::from(copy);
     } else if column.capacity() < capacity {
@@ -300,6 +297,13 @@ fn own_column<T: Copy>(column: &mut Column<T>, capacity: usize) {
 
 fn own_values(values: &mut Values, capacity: usize) {
     on_column!(values, c => own_column(c, capacity));
+}
+
+/// An empty array with room for so many elements.
+fn roomy<T: Send + 'static>(capacity: usize) -> Vec<T> {
+    let array: Vec<T> = spare(capacity);
+    advise_huge_pages(array.as_ptr().cast(), array.capacity() * size_of::<T>());
+    array
 }
 
 /// Asks for large pages where an array is large: first touch of small ones takes as long as all the rest of a step.
@@ -321,8 +325,10 @@ fn advise_huge_pages(start: *const u8, bytes: usize) {
 #[cfg(not(target_os = "linux"))]
 fn advise_huge_pages(_start: *const u8, _bytes: usize) {}
 
-fn shrink_values(values: &mut Values) {
-    on_column!(values, c => c.edit().shrink_to_fit());
+fn shrink<T: Clone + Send>(column: &mut Column<T>, room: usize) {
+    if column.capacity() - column.capacity() / 8 > room {
+        column.edit().shrink_to(room);
+    }
 }
 
 fn raw_column(values: &mut Values) -> (*mut u8, usize) {
@@ -330,7 +336,7 @@ fn raw_column(values: &mut Values) -> (*mut u8, usize) {
 }
 
 fn column_pointer(values: &Values) -> *const u8 {
-    fn pointer<T>(c: &Column<T>) -> *const u8 {
+    fn pointer<T: Send>(c: &Column<T>) -> *const u8 {
         c.as_ptr().cast()
     }
     on_column!(values, c => pointer(c))
