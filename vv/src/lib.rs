@@ -11,6 +11,7 @@
 //! bytes; whoever calls decides where from, how long and on which thread. Who steps a program more than once keeps an
 //! [`engine::Machine`].
 
+pub mod assist;
 pub mod builtins;
 pub mod check;
 pub mod diagnostic;

@@ -22,6 +22,11 @@ pub fn parse(file: FileId, text: &str) -> (Ast, Vec<Diagnostic>) {
     (parsed.ast, parsed.diagnostics)
 }
 
+/// The words of the language, also those that can be names.
+pub fn all_words() -> impl Iterator<Item = &'static str> {
+    [words::RESERVED, words::STATEMENTS, words::PREFIXES, words::INFIXES].into_iter().flatten().copied()
+}
+
 /// What a stretch of text is, for colouring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TokenClass {

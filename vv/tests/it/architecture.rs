@@ -12,6 +12,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("syntax", &["diagnostic", "source"]),
     ("builtins", &["mesh"]),
     ("ir", &["builtins", "mesh", "source", "syntax"]),
+    ("assist", &["builtins", "source", "syntax"]),
     ("check", &["builtins", "diagnostic", "ir", "mesh", "source", "syntax"]),
     ("engine", &["builtins", "diagnostic", "ir", "mesh", "source", "stop"]),
     ("io", &["diagnostic", "mesh", "stop"]),
