@@ -52,8 +52,20 @@ pub enum Command {
     /// Ends the program.
     Quit,
 
+    /// What was changed last is as it was before: text, mesh, rule, parameters, generation.
+    Undo,
+    /// What was undone last is again.
+    Redo,
+    /// The text is as it was before.
+    UndoText,
+    /// What was undone last of the text is again.
+    RedoText,
     /// The program's text is now this.
     Edit(Arc<str>),
+    /// The same while a number is dragged: it is run at once.
+    Tune(Arc<str>),
+    /// Something to do in the editor.
+    Text(TextAction),
     /// Carries out what a diagnostic proposes.
     Fix(Hint),
     /// Shows a place of the program in the editor.
@@ -69,6 +81,8 @@ pub enum Command {
     Rewind,
     /// To any generation.
     GoTo(u64),
+    /// To any generation, as one of many on the way.
+    Scrub(u64),
     /// Steps again and again; and ends that.
     Play,
     /// Ends what is being computed.
@@ -108,6 +122,9 @@ pub enum Command {
     /// The window without its frame, as large as the screen; and back.
     FullScreen,
 
+    /// When a changed text is run.
+    SetReload(Reload),
+
     /// All commands, to be found by typing.
     Palette,
     /// All keys.
@@ -123,8 +140,49 @@ pub enum Answer {
     Discard,
 }
 
+/// Something to do in the editor, at its cursor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextAction {
+    /// Opens the field to find text.
+    Find,
+    /// Opens the fields to find and replace text.
+    Replace,
+    /// To the next place that was found.
+    FindNext,
+    /// To the one before.
+    FindPrevious,
+    /// Makes comments of the lines, or code again.
+    ToggleComment,
+    /// Lays the text out.
+    Format,
+    /// Shows what can stand at the cursor.
+    Complete,
+    /// To where the name at the cursor is declared.
+    Declaration,
+    /// To the next problem.
+    NextProblem,
+    /// To the one before.
+    PreviousProblem,
+    /// The number at the cursor up by its last digit.
+    RaiseNumber,
+    /// The number at the cursor down by its last digit.
+    LowerNumber,
+}
+
+/// When a changed text is run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Reload {
+    /// While it is typed, at each pause.
+    #[default]
+    Typed,
+    /// When it is saved, here or by another program.
+    Saved,
+    /// When it is asked for.
+    ByHand,
+}
+
 /// Light or dark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum ThemeChoice {
     /// As the system.
     #[default]
@@ -165,6 +223,14 @@ const fn ctrl(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND, key)
 }
 
+const fn alt(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::ALT, key)
+}
+
+const fn shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::SHIFT, key)
+}
+
 const fn ctrl_shift(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
 }
@@ -190,6 +256,12 @@ impl Command {
             Self::Run => {
                 ("Run again", "read the files and compute everything anew", const { &[key(Key::F5), ctrl(Key::Enter)] })
             }
+            Self::Undo => ("Undo", "take the last change back", const { &[ctrl(Key::Z)] }),
+            Self::Redo => ("Redo", "do again what was undone", const { &[ctrl_shift(Key::Z), ctrl(Key::Y)] }),
+            Self::Text(action) => return action.describe(),
+            Self::SetReload(Reload::Typed) => ("Run as typed", "run a changed text at each pause in typing", &[]),
+            Self::SetReload(Reload::Saved) => ("Run on save", "run a changed text when it is saved", &[]),
+            Self::SetReload(Reload::ByHand) => ("Run by hand", "run a changed text only when asked to", &[]),
             Self::Step => ("Step", "apply the rule once", const { &[key(Key::S), key(Key::ArrowRight)] }),
             Self::Back => ("Back", "take the last step back", const { &[key(Key::ArrowLeft)] }),
             Self::Rewind => ("Rewind", "go back to generation 0", const { &[key(Key::Home)] }),
@@ -228,10 +300,14 @@ impl Command {
             | Self::ExportTo(_)
             | Self::AnswerUnsaved(_)
             | Self::CloseDialog
+            | Self::UndoText
+            | Self::RedoText
             | Self::Edit(_)
+            | Self::Tune(_)
             | Self::Fix(_)
             | Self::Reveal(_)
             | Self::GoTo(_)
+            | Self::Scrub(_)
             | Self::ChooseRule(_)
             | Self::SetParam(..)
             | Self::ResetParam(_)
@@ -249,6 +325,9 @@ impl Command {
             Self::Step | Self::Play => session.can_step(),
             Self::Stop => session.is_busy() || session.is_playing(),
             Self::Choose(Purpose::ExportMesh) | Self::CopyImage => session.frame().is_some(),
+            Self::Undo => session.can_undo(),
+            Self::Redo => session.can_redo(),
+            Self::Text(TextAction::NextProblem | TextAction::PreviousProblem) => session.has_problems_here(),
             Self::ResetParams => !session.document.params.is_empty(),
             Self::TakeFromDisk | Self::KeepMine => session.text_on_disk().is_some(),
             _ => true,
@@ -268,16 +347,53 @@ impl Command {
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,
+            Self::SetReload(reload) => session.reload == *reload,
             Self::FullScreen => session.full_screen,
             _ => return None,
         })
     }
 }
 
+impl TextAction {
+    fn describe(self) -> Description {
+        let (label, tooltip, shortcuts): (_, _, &'static [KeyboardShortcut]) = match self {
+            Self::Find => ("Find…", "find text in the program", const { &[ctrl(Key::F)] }),
+            Self::Replace => ("Replace…", "find and replace text in the program", const { &[ctrl(Key::H)] }),
+            Self::FindNext => ("Find next", "go to the next place that was found", const { &[key(Key::F3)] }),
+            Self::FindPrevious => {
+                ("Find previous", "go to the place that was found before", const { &[shift(Key::F3)] })
+            }
+            Self::ToggleComment => {
+                ("Toggle comment", "make comments of the lines, or code again", const { &[ctrl(Key::Slash)] })
+            }
+            Self::Format => (
+                "Format program",
+                "lay the program out: indentation and spaces",
+                const { &[KeyboardShortcut::new(Modifiers::ALT.plus(Modifiers::SHIFT), Key::F)] },
+            ),
+            Self::Complete => ("Complete", "show what can stand at the cursor", const { &[ctrl(Key::Space)] }),
+            Self::Declaration => {
+                ("Go to declaration", "show where the name at the cursor is declared", const { &[key(Key::F4)] })
+            }
+            Self::NextProblem => ("Next problem", "go to the next error or warning", const { &[key(Key::F8)] }),
+            Self::PreviousProblem => {
+                ("Previous problem", "go to the error or warning before", const { &[shift(Key::F8)] })
+            }
+            Self::RaiseNumber => {
+                ("Raise number", "the number at the cursor up by its last digit", const { &[alt(Key::ArrowUp)] })
+            }
+            Self::LowerNumber => {
+                ("Lower number", "the number at the cursor down by its last digit", const { &[alt(Key::ArrowDown)] })
+            }
+        };
+        Description { label, tooltip, shortcuts }
+    }
+}
+
 /// Whether a key acts also while text is being typed.
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
-    let function = matches!(shortcut.logical_key, Key::F1 | Key::F5 | Key::F8 | Key::F11 | Key::F12);
+    let function = matches!(shortcut.logical_key, Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11);
     shortcut.modifiers.command || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
 }
 

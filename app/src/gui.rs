@@ -141,7 +141,11 @@ impl App {
     }
 
     fn panels(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let reveal = self.session.reveal.take();
+        let (reveal, actions) = if self.session.panels.program {
+            (self.session.reveal.take(), std::mem::take(&mut self.session.text_actions))
+        } else {
+            (None, Vec::new())
+        };
         let session = &self.session;
         let width = ui.available_width();
         let inspector = if session.panels.inspector { INSPECTOR } else { 0.0 };
@@ -171,7 +175,7 @@ impl App {
                         let frame = theme::editor(ui);
                         egui::CentralPanel::default()
                             .frame(frame)
-                            .show(ui, |ui| self.editor.show(ui, session, reveal, commands));
+                            .show(ui, |ui| self.editor.show(ui, session, reveal, actions, commands));
                     }
                 });
         }
@@ -258,7 +262,7 @@ impl eframe::App for App {
         let mut commands = Vec::new();
         self.keep_focus(ui.ctx());
         if self.session.dialog.is_none() {
-            keys::take(ui.ctx(), &self.session, &mut commands);
+            keys::take(ui.ctx(), &self.session, self.editor.takes_escape(ui.ctx()), &mut commands);
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
         self.panels(ui, &mut commands);

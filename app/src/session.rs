@@ -6,6 +6,7 @@
 mod files;
 mod generations;
 mod problem;
+mod undo;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -19,7 +20,7 @@ use vv::ir::Program;
 use vv::mesh::Value;
 
 use crate::camera::Camera;
-use crate::command::{Command, Panel, ThemeChoice};
+use crate::command::{Command, Panel, Reload, TextAction, ThemeChoice};
 use crate::console::Console;
 use crate::document::{Document, MeshSource, ProgramText};
 use crate::render::Size;
@@ -30,6 +31,7 @@ use crate::{evaluation, library};
 
 use files::{Chooser, is_program};
 pub use problem::{Place, Problem, Problems};
+pub use undo::changed;
 
 /// How long a text rests before it is compiled.
 const TYPING_PAUSE: Duration = Duration::from_millis(300);
@@ -117,6 +119,15 @@ impl Panels {
     }
 }
 
+/// A place of the program that the editor shall show.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reveal {
+    /// Bytes of the text.
+    pub range: std::ops::Range<usize>,
+    /// Whether the editor gets the keys.
+    pub focus: bool,
+}
+
 /// What the worker is at.
 struct Running {
     ticket: Ticket,
@@ -137,8 +148,12 @@ pub struct Session {
     pub full_screen: bool,
     /// The question that is open. Its text field is edited in place.
     pub dialog: Option<Dialog>,
+    /// When a changed text is run.
+    pub reload: Reload,
     /// A place of the program that the editor shall show; the editor takes it.
-    pub reveal: Option<std::ops::Range<usize>>,
+    pub reveal: Option<Reveal>,
+    /// What the editor shall do; the editor takes it.
+    pub text_actions: Vec<TextAction>,
     /// Size and style of the picture in the viewport, which tells them.
     pub view: Option<(Size, Style)>,
     /// The viewport shall bring all in sight; the viewport takes it.
@@ -153,6 +168,9 @@ pub struct Session {
     /// Whether the user has said which mesh; else it is what the program needs.
     mesh_chosen: bool,
 
+    history: undo::History,
+    /// The text that is run, which may be older than the one in the editor.
+    text_to_run: Arc<str>,
     /// When to ask for what is wanted, if it is not what was asked for last.
     due: Option<Instant>,
     running: Option<Running>,
@@ -194,7 +212,9 @@ impl Session {
             panels: Panels { program: true, messages: true, inspector: true },
             full_screen: false,
             dialog: None,
+            reload: Reload::Typed,
             reveal: None,
+            text_actions: Vec::new(),
             view: None,
             fit: true,
             worker,
@@ -204,6 +224,8 @@ impl Session {
             mesh_revision: 0,
             included: BTreeSet::new(),
             mesh_chosen: false,
+            history: undo::History::default(),
+            text_to_run: Arc::from(""),
             due: None,
             running: None,
             stopped: None,
@@ -219,6 +241,7 @@ impl Session {
             clipboard: Arc::default(),
             wants_quit: false,
         };
+        session.text_to_run = Arc::clone(&session.document.program.text);
         session.ask_now();
         if let Some(path) = program {
             session.open_program(&path);
@@ -231,6 +254,16 @@ impl Session {
 
     /// Carries a command out. The only place where a document changes.
     pub fn apply(&mut self, command: Command) {
+        let is_undo = matches!(command, Command::Undo | Command::Redo | Command::UndoText | Command::RedoText);
+        let (kind, programs) = (undo::kind_of(&command), self.programs());
+        let (text, state) = (Arc::clone(&self.document.program.text), self.state());
+        self.carry_out(command);
+        if !is_undo {
+            self.record(kind, &text, state, programs);
+        }
+    }
+
+    fn carry_out(&mut self, command: Command) {
         let generation = self.document.generation;
         match command {
             Command::NewProgram => self.unless_unsaved(command, |s| {
@@ -258,6 +291,7 @@ impl Session {
                 if let Some(text) = self.text_on_disk.take() {
                     self.document.program.saved = Arc::clone(&text);
                     self.document.program.text = text;
+                    self.text_was_saved();
                     self.ask_now();
                 }
             }
@@ -270,18 +304,41 @@ impl Session {
             Command::CloseDialog => self.dialog = None,
             Command::Quit => self.unless_unsaved(command, |s| s.wants_quit = true),
 
+            Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            Command::UndoText => self.undo_text(true),
+            Command::RedoText => self.redo_text(true),
             Command::Edit(text) => {
                 if self.document.program.text != text {
                     self.document.program.text = text;
+                    self.text_was_edited();
                     self.ask_after(TYPING_PAUSE);
                 }
+            }
+            Command::Tune(text) => {
+                if self.document.program.text != text {
+                    self.document.program.text = text;
+                    self.run_text();
+                    self.ask_now();
+                }
+            }
+            Command::Text(TextAction::Format) => self.format(),
+            Command::Text(action) => {
+                self.panels.program = true;
+                self.text_actions.push(action);
+            }
+            Command::SetReload(reload) => {
+                self.reload = reload;
+                self.text_was_edited();
+                self.ask_now();
             }
             Command::Fix(hint) => self.fix(&hint),
             Command::Reveal(range) => {
                 self.panels.program = true;
-                self.reveal = Some(range);
+                self.reveal = Some(Reveal { range, focus: true });
             }
             Command::Run => {
+                self.run_text();
                 self.includes_revision += 1;
                 self.mesh_revision += 1;
                 self.ask_now();
@@ -294,7 +351,7 @@ impl Session {
             Command::Step => self.go_to(generation.saturating_add(1)),
             Command::Back => self.pause_and_go_to(generation.saturating_sub(1)),
             Command::Rewind => self.pause_and_go_to(0),
-            Command::GoTo(generation) => self.pause_and_go_to(generation),
+            Command::GoTo(generation) | Command::Scrub(generation) => self.pause_and_go_to(generation),
             Command::Play if self.playing.is_some() => self.playing = None,
             Command::Play => self.playing = Some(Instant::now()),
             Command::Stop => self.stop(),
@@ -418,6 +475,25 @@ impl Session {
         program.function(chosen.or_else(|| program.default_rule())?).map(|f| f.name.as_str())
     }
 
+    /// Whether the text in the editor is not the one that was run, and waits for somebody to say so.
+    #[must_use]
+    pub fn text_waits(&self) -> bool {
+        self.text_to_run != self.document.program.text
+    }
+
+    /// The texts that the last program that compiled includes.
+    #[must_use]
+    pub fn included_texts(&self) -> Vec<Arc<str>> {
+        let Some(program) = &self.program else { return Vec::new() };
+        program.sources.files().iter().skip(1).map(|file| Arc::clone(&file.text)).collect()
+    }
+
+    /// Whether some problem has a place in the text in the editor.
+    #[must_use]
+    pub fn has_problems_here(&self) -> bool {
+        self.problems.iter().any(|p| p.place.as_ref().is_some_and(|place| place.own))
+    }
+
     /// What is wrong, in the order of the text.
     #[must_use]
     pub fn problems(&self) -> &Problems {
@@ -454,6 +530,38 @@ impl Session {
     #[must_use]
     pub fn wants_quit(&self) -> bool {
         self.wants_quit
+    }
+
+    /// From now on this text is run.
+    fn run_text(&mut self) {
+        self.text_to_run = Arc::clone(&self.document.program.text);
+    }
+
+    fn text_was_edited(&mut self) {
+        if self.reload == Reload::Typed {
+            self.run_text();
+        }
+    }
+
+    fn text_was_saved(&mut self) {
+        if self.reload != Reload::ByHand {
+            self.run_text();
+        }
+    }
+
+    fn format(&mut self) {
+        match vv::syntax::format(&self.document.program.text) {
+            Ok(text) if *text == *self.document.program.text => self.say(Severity::Note, "laid out already"),
+            Ok(text) => {
+                self.document.program.text = text.into();
+                self.text_was_edited();
+                self.ask_now();
+            }
+            Err(_) => {
+                let text = "only a program that can be read without doubt is laid out: see its errors";
+                self.say(Severity::Error, text);
+            }
+        }
     }
 
     fn change_style(&mut self, change: impl FnOnce(&mut Style)) {

@@ -1,6 +1,6 @@
 //! Where each command stands: the menus, which the palette, the cheat sheet and the keys go by as well.
 
-use super::{Command, Panel, ThemeChoice};
+use super::{Command, Panel, Reload, TextAction, ThemeChoice};
 use crate::session::Purpose;
 
 /// A menu.
@@ -23,11 +23,33 @@ pub const MENUS: &[Menu] = &[
         ],
     },
     Menu {
+        title: "Edit",
+        groups: &[
+            &[Command::Undo, Command::Redo],
+            &[
+                Command::Text(TextAction::Find),
+                Command::Text(TextAction::Replace),
+                Command::Text(TextAction::FindNext),
+                Command::Text(TextAction::FindPrevious),
+            ],
+            &[
+                Command::Text(TextAction::Complete),
+                Command::Text(TextAction::Declaration),
+                Command::Text(TextAction::ToggleComment),
+                Command::Text(TextAction::Format),
+                Command::Text(TextAction::RaiseNumber),
+                Command::Text(TextAction::LowerNumber),
+            ],
+            &[Command::Text(TextAction::NextProblem), Command::Text(TextAction::PreviousProblem)],
+        ],
+    },
+    Menu {
         title: "Run",
         groups: &[
             &[Command::Step, Command::Back, Command::Rewind],
             &[Command::Play, Command::Stop],
             &[Command::Run, Command::ResetParams],
+            &[Command::SetReload(Reload::Typed), Command::SetReload(Reload::Saved), Command::SetReload(Reload::ByHand)],
         ],
     },
     Menu {

@@ -1,21 +1,32 @@
 //! The program's text, coloured, with its errors where they are.
 
+mod change;
+mod completion;
+mod find;
+mod page;
+mod tuning;
+mod typing;
+
 use std::ops::Range;
 use std::sync::Arc;
 
 use eframe::egui::text::{CCursor, CCursorRange, LayoutJob};
-use eframe::egui::text_edit::TextEditState;
+use eframe::egui::text_edit::TextEditOutput;
 use eframe::egui::{
-    self, Align, Align2, Color32, Event, FontId, Galley, Id, Key, Layout, Margin, Painter, Pos2, Rect, RichText,
-    ScrollArea, Shape, Stroke, TextBuffer, TextEdit, TextFormat, TextStyle, Ui, Vec2b, pos2, vec2,
+    self, Align, Color32, Context, EventFilter, FontId, Galley, Id, Layout, Margin, Rect, RichText, ScrollArea, Shape,
+    TextBuffer, TextEdit, TextFormat, TextStyle, Ui, Vec2b, pos2, vec2,
 };
-use vv::diagnostic::Severity;
+use vv::assist::{Assist, number_at};
 
 use super::{messages, theme};
-use crate::command::Command;
-use crate::session::{Place, Problem, Session};
+use crate::command::{Command, TextAction};
+use crate::session::{Place, Problem, Reveal, Session};
 
-const INDENT: &str = "  ";
+use change::Change;
+use page::{Page, byte_of, char_of};
+
+/// Seconds that the pointer rests on a word before it is explained.
+const REST: f32 = 0.45;
 
 /// The panel's own state.
 #[derive(Default)]
@@ -24,41 +35,178 @@ pub struct Editor {
     buffer: String,
     /// What the colours were made for, and the colours.
     colored: Option<(String, bool, LayoutJob)>,
-    /// Which program it is: another one starts with a fresh undo history.
+    /// Which program it is.
     name: Option<(String, Option<std::path::PathBuf>)>,
+    assist: Option<Assist>,
+    find: find::Find,
+    popup: Option<completion::Popup>,
+    handle: Option<tuning::Handle>,
+    /// What is selected, in bytes; the cursor if nothing is. egui forgets it when the keys go elsewhere.
+    selected: Range<usize>,
+    /// What to bring in sight, beside what the session says.
+    reveal: Option<Reveal>,
+}
+
+fn id() -> Id {
+    Id::unique("program text")
+}
+
+/// Whether what is typed goes into the program.
+pub fn has_keys(ctx: &Context) -> bool {
+    ctx.memory(|m| m.has_focus(id()))
 }
 
 impl Editor {
-    /// Shows it; brings `reveal`, a stretch of the text, in sight.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, reveal: Option<Range<usize>>, commands: &mut Vec<Command>) {
-        let id = Id::unique("program text");
-        let program = &session.document.program;
-        if self.buffer != *program.text {
-            self.buffer = program.text.to_string();
-        }
-        let name = Some((program.name.clone(), program.path.clone()));
-        if self.name != name {
-            // Saving under a name is no other program.
-            if self.name.is_none() || !program.saved.is_empty() && !program.is_modified() && reveal.is_some() {
-                TextEditState::default().store(ui.ctx(), id);
-            }
-            self.name = name;
-        }
+    /// Shows it; does what the session wants of it.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        session: &Session,
+        reveal: Option<Reveal>,
+        actions: Vec<TextAction>,
+        commands: &mut Vec<Command>,
+    ) {
+        self.follow(ui.ctx(), session);
+        self.reveal = reveal.or(self.reveal.take());
         header(ui, session, commands);
         if session.text_on_disk().is_some() {
             conflict(ui, session, commands);
         }
-        self.text(ui, id, session, reveal, commands);
+        if self.find.open {
+            let selection = self.selected.clone();
+            match self.find.show(ui, &self.buffer, &selection) {
+                Some(find::Wish::Here) => self.go(&(selection.start..selection.start), true),
+                Some(find::Wish::Next) => self.go(&selection, true),
+                Some(find::Wish::Previous) => self.go(&selection, false),
+                Some(find::Wish::Change(change)) => {
+                    self.change(ui.ctx(), change, commands);
+                    let selection = self.selected.clone();
+                    self.go(&selection, true);
+                }
+                Some(find::Wish::Close) => self.reveal = Some(Reveal { range: selection, focus: true }),
+                None => {}
+            }
+        }
+        for action in actions {
+            self.act(ui.ctx(), session, action, commands);
+        }
+        if has_keys(ui.ctx()) {
+            let mut close = false;
+            let chosen = self.popup.as_mut().and_then(|popup| popup.take_keys(ui, &self.buffer, &mut close));
+            if close {
+                self.popup = None;
+            }
+            if let Some(change) = chosen {
+                self.change(ui.ctx(), change, commands);
+            }
+            let selection = self.selected.clone();
+            if let Some(change) = typing::take(ui, &self.buffer, &selection) {
+                self.change(ui.ctx(), change, commands);
+            }
+        } else {
+            self.popup = None;
+        }
+        self.text(ui, session, commands);
     }
 
-    fn text(
-        &mut self,
-        ui: &mut Ui,
-        id: Id,
-        session: &Session,
-        reveal: Option<Range<usize>>,
-        commands: &mut Vec<Command>,
-    ) {
+    /// Whether Escape closes something here.
+    pub fn takes_escape(&self, ctx: &Context) -> bool {
+        self.popup.is_some() && has_keys(ctx) || self.find.has_keys(ctx)
+    }
+
+    /// Takes over what has become of the text elsewhere.
+    fn follow(&mut self, ctx: &Context, session: &Session) {
+        let program = &session.document.program;
+        let name = Some((program.name.clone(), program.path.clone()));
+        let other = self.name != name && !program.is_modified();
+        if self.buffer != *program.text {
+            let Range { start, end } = self.selected;
+            let kept = |at| if other { 0 } else { change::kept(&self.buffer, &program.text, at) };
+            let selection = kept(start)..kept(end);
+            self.buffer = program.text.to_string();
+            self.select(ctx, selection);
+            self.popup = None;
+        }
+        self.name = name;
+    }
+
+    fn select(&mut self, ctx: &Context, selection: Range<usize>) {
+        let mut state = TextEdit::load_state(ctx, id()).unwrap_or_default();
+        state.cursor.set_char_range(Some(char_range(&self.buffer, &selection)));
+        state.store(ctx, id());
+        self.selected = selection;
+    }
+
+    fn change(&mut self, ctx: &Context, change: Change, commands: &mut Vec<Command>) {
+        self.buffer = change.text;
+        self.popup = None;
+        self.select(ctx, change.selection);
+        ctx.memory_mut(|m| m.request_focus(id()));
+        commands.push(Command::Edit(self.buffer.as_str().into()));
+    }
+
+    /// To the next place that was found.
+    fn go(&mut self, from: &Range<usize>, forwards: bool) {
+        if let Some(range) = self.find.step(&self.buffer, from, forwards) {
+            self.reveal = Some(Reveal { range, focus: false });
+        }
+    }
+
+    fn act(&mut self, ctx: &Context, session: &Session, action: TextAction, commands: &mut Vec<Command>) {
+        let selection = self.selected.clone();
+        match action {
+            TextAction::Find | TextAction::Replace => {
+                self.find.open(action == TextAction::Replace, &self.buffer[selection]);
+            }
+            TextAction::FindNext | TextAction::FindPrevious if !self.find.open => self.find.open(false, ""),
+            TextAction::FindNext => self.go(&selection, true),
+            TextAction::FindPrevious => self.go(&selection, false),
+            TextAction::ToggleComment => {
+                let change = change::toggle_comment(&self.buffer, &selection);
+                self.change(ctx, change, commands);
+            }
+            TextAction::Format => {} // the session's
+            TextAction::Complete => {
+                ctx.memory_mut(|m| m.request_focus(id()));
+                let completions = self.assist(session).complete(selection.end);
+                self.popup = completion::Popup::new(completions);
+            }
+            TextAction::Declaration => {
+                let declared = self.assist(session).declaration(selection.start);
+                self.reveal = declared.map(|range| Reveal { range, focus: true }).or(self.reveal.take());
+            }
+            TextAction::NextProblem | TextAction::PreviousProblem => {
+                let mut ranges: Vec<_> =
+                    own_problems(session).into_iter().map(|(_, place)| place.range.clone()).collect();
+                ranges.sort_by_key(|r| (r.start, r.end));
+                let next = match action {
+                    TextAction::NextProblem => ranges.iter().find(|r| r.start > selection.start).or(ranges.first()),
+                    _ => ranges.iter().rev().find(|r| r.start < selection.start).or(ranges.last()),
+                };
+                self.reveal = next.map(|range| Reveal { range: range.clone(), focus: true }).or(self.reveal.take());
+            }
+            TextAction::RaiseNumber | TextAction::LowerNumber => {
+                let units = if action == TextAction::RaiseNumber { 1 } else { -1 };
+                if let Some(number) = number_at(&self.buffer, selection.start) {
+                    let change = change::replace(&self.buffer, number.range.clone(), &number.moved(units));
+                    self.buffer = change.text;
+                    self.select(ctx, change.selection);
+                    commands.push(Command::Tune(self.buffer.as_str().into()));
+                }
+            }
+        }
+    }
+
+    fn assist(&mut self, session: &Session) -> &Assist {
+        let current = self.assist.take().filter(|assist| **assist.text() == *self.buffer);
+        self.assist.insert(current.unwrap_or_else(|| {
+            let included = session.included_texts();
+            Assist::new(self.buffer.as_str(), included.iter().map(|text| &**text))
+        }))
+    }
+
+    fn text(&mut self, ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+        let reveal = self.reveal.take();
         let font = TextStyle::Monospace.resolve(ui.style());
         let digits = (self.buffer.lines().count() + 1).to_string().len().max(2);
         let digit = ui.fonts_mut(|f| f.glyph_width(&font, '0'));
@@ -66,7 +214,59 @@ impl Editor {
         let all = ui.available_rect_before_wrap();
         let gutter = Rect::from_min_max(all.min, pos2(all.left() + gutter_width, all.bottom()));
         let area = Rect::from_min_max(pos2(gutter.right(), all.top()), all.max);
-        indent_by_hand(ui, id, &self.buffer);
+        let before = self.buffer.len();
+        let (behind, output) = self.edit(ui, area, &font, reveal.as_ref());
+        if let Some(reveal) = reveal {
+            self.selected = reveal.range;
+        } else if let Some(range) = output.cursor_range.filter(|_| output.response.has_focus()) {
+            let Range { start, end } = range.as_sorted_char_range();
+            self.selected = byte_of(&self.buffer, start.0)..byte_of(&self.buffer, end.0);
+        }
+        output.response.response.clone().accessible_name("Program text");
+        let changed = output.response.changed();
+        if changed {
+            commands.push(Command::Edit(self.buffer.as_str().into()));
+        }
+        let focus = output.response.has_focus();
+        let cursor = output.cursor_range.filter(|_| focus).map(|range| range.primary);
+        let clip = area.intersect(ui.clip_rect());
+        let text = self.buffer.clone();
+        let page = Page { galley: &output.galley, origin: output.galley_pos, text: &text, clip };
+        let cursor_line = cursor.map(|cursor| page.row_of(cursor));
+        let mut shapes = vec![page.found(ui, self.find.matches(&text), &self.selected)];
+        if let Some(row) = cursor_line.and_then(|row| page.row_rect(row)) {
+            let stripe = Rect::from_x_y_ranges(area.x_range(), row.y_range());
+            shapes.insert(0, Shape::rect_filled(stripe, 0.0, ui.visuals().faint_bg_color));
+        }
+        ui.painter().with_clip_rect(area).set(behind, Shape::Vec(shapes));
+        let cursor = cursor.map(|cursor| byte_of(&text, cursor.index.0));
+        if let Some(pair) = cursor.and_then(|cursor| self.assist(session).brackets(cursor)) {
+            page.brackets(ui, &pair);
+        }
+        // Where the text has been edited since it was run, places are wrong.
+        let own = if session.text_waits() { Vec::new() } else { own_problems(session) };
+        for (problem, place) in &own {
+            page.underline(ui, problem, place);
+        }
+        page.line_messages(ui, &own);
+        page.gutter(ui, gutter, &own, cursor_line);
+        let typed = changed && self.buffer.len() > before;
+        self.completions(ui, session, &page, cursor, typed, commands);
+        let over_text = output.response.hovered();
+        if over_text || ui.rect_contains_pointer(gutter) {
+            self.tooltips(ui, session, &page, gutter, &own);
+        }
+        self.tune(ui, &page, over_text, commands);
+    }
+
+    /// The field itself. Returns a place to draw behind the text.
+    fn edit(
+        &mut self,
+        ui: &mut Ui,
+        area: Rect,
+        font: &FontId,
+        reveal: Option<&Reveal>,
+    ) -> (egui::layers::ShapeIdx, TextEditOutput) {
         let dark = ui.visuals().dark_mode;
         let colored = &mut self.colored;
         let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _width: f32| -> Arc<Galley> {
@@ -74,7 +274,7 @@ impl Editor {
             let job = match colored {
                 Some((of, was_dark, job)) if of == text && *was_dark == dark => job.clone(),
                 _ => {
-                    let job = color(text, dark, &font);
+                    let job = color(text, dark, font);
                     *colored = Some((text.to_owned(), dark, job.clone()));
                     job
                 }
@@ -82,69 +282,133 @@ impl Editor {
             ui.fonts_mut(|f| f.layout_job(job))
         };
         let buffer = &mut self.buffer;
-        let output = ui
-            .scope_builder(egui::UiBuilder::new().max_rect(area), |ui| {
-                ScrollArea::both().id_salt("program").auto_shrink(Vec2b::FALSE).show(ui, |ui| {
-                    let current_line = ui.painter().add(Shape::Noop);
-                    let output = TextEdit::multiline(buffer)
-                        .id(id)
-                        .code_editor()
-                        .frame(egui::Frame::NONE)
-                        .margin(Margin { left: 6, right: 40, top: 6, bottom: 40 })
-                        .desired_width(f32::INFINITY)
-                        .min_size(area.size())
-                        .layouter(&mut layouter)
-                        .show(ui);
-                    if let Some(range) = reveal {
-                        place_cursor(ui, id, &output, buffer, range);
-                    }
-                    (current_line, output)
-                })
+        // While a list is open Escape closes that.
+        let escape = self.popup.is_some();
+        let keys = EventFilter { tab: true, escape, horizontal_arrows: true, vertical_arrows: true };
+        let inside = egui::UiBuilder::new().max_rect(area);
+        ui.scope_builder(inside, |ui| {
+            ScrollArea::both().id_salt("program").auto_shrink(Vec2b::FALSE).show(ui, |ui| {
+                let behind = ui.painter().add(Shape::Noop);
+                let output = TextEdit::multiline(buffer)
+                    .id(id())
+                    .code_editor()
+                    .event_filter(keys)
+                    .frame(egui::Frame::NONE)
+                    .margin(Margin { left: 6, right: 40, top: 6, bottom: 40 })
+                    .desired_width(f32::INFINITY)
+                    .min_size(area.size())
+                    .layouter(&mut layouter)
+                    .show(ui);
+                if let Some(reveal) = reveal {
+                    place_cursor(ui, &output, buffer, reveal);
+                }
+                (behind, output)
             })
-            .inner
-            .inner;
-        let (current_line, output) = output;
-        output.response.response.clone().accessible_name("Program text");
-        if output.response.changed() {
-            commands.push(Command::Edit(self.buffer.as_str().into()));
+        })
+        .inner
+        .inner
+    }
+
+    fn completions(
+        &mut self,
+        ui: &Ui,
+        session: &Session,
+        page: &Page<'_>,
+        cursor: Option<usize>,
+        typed: bool,
+        commands: &mut Vec<Command>,
+    ) {
+        let Some(cursor) = cursor else { return };
+        let at = self.popup.as_ref().is_some_and(|popup| popup.is_at(cursor));
+        if typed || self.popup.is_some() && !at {
+            let completions = self.assist(session).complete(cursor);
+            let written = completions.replaces.len();
+            let after_mark = self.buffer[..completions.replaces.start].ends_with('$');
+            self.popup = match &self.popup {
+                Some(popup) => popup.follow(completions),
+                None if typed && (written >= 2 || after_mark) => completion::Popup::new(completions),
+                None => None,
+            };
         }
-        let page = Page {
-            galley: &output.galley,
-            origin: output.galley_pos,
-            text: &self.buffer,
-            clip: area.intersect(ui.clip_rect()),
-        };
-        let cursor_line =
-            output.cursor_range.filter(|_| output.response.has_focus()).map(|range| page.row_of(range.primary));
-        if let Some(row) = cursor_line.and_then(|row| page.row_rect(row)) {
-            let stripe = Rect::from_x_y_ranges(area.x_range(), row.y_range());
-            ui.painter()
-                .with_clip_rect(area)
-                .set(current_line, Shape::rect_filled(stripe, 0.0, ui.visuals().faint_bg_color));
+        let Some(popup) = &mut self.popup else { return };
+        let word = page.rect_of(&popup.replaces());
+        if let Some(change) = popup.show(ui, word, &self.buffer) {
+            self.change(ui.ctx(), change, commands);
         }
-        let own: Vec<(&Problem, &Place)> = session
-            .problems()
-            .iter()
-            .filter_map(|problem| Some((problem, problem.place.as_ref().filter(|place| place.own)?)))
-            .collect();
-        for (problem, place) in &own {
-            page.underline(ui, problem, place);
+    }
+
+    /// What is wrong under the pointer, else what the word there means.
+    fn tooltips(&mut self, ui: &Ui, session: &Session, page: &Page<'_>, gutter: Rect, own: &[(&Problem, &Place)]) {
+        let Some(pos) = ui.input(|i| i.pointer.hover_pos()) else { return };
+        let problem = page.problem_at(pos, gutter, own);
+        let byte = page.byte_at(pos).filter(|_| self.popup.is_none() && self.handle.is_none());
+        let meaning = byte.and_then(|byte| self.assist(session).meaning(byte));
+        let rested = ui.input(|i| i.pointer.time_since_last_movement() > REST && !i.pointer.any_down());
+        if meaning.is_some() && !rested {
+            ui.ctx().request_repaint_after_secs(REST);
         }
-        page.line_messages(ui, &own);
-        page.gutter(ui, gutter, &own, cursor_line);
-        let hovered = ui.input(|i| i.pointer.hover_pos()).and_then(|pos| page.problem_at(pos, gutter, &own));
-        if let Some(problem) = hovered
-            && output.response.hovered() | ui.rect_contains_pointer(gutter)
-        {
-            egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id.with("problem"), egui::PopupAnchor::Pointer)
-                .gap(14.0)
-                .show(|ui| {
+        let meaning = meaning.filter(|_| rested);
+        if problem.is_none() && meaning.is_none() {
+            return;
+        }
+        let salt = id().with("tooltip");
+        egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), salt, egui::PopupAnchor::Pointer).gap(14.0).show(
+            |ui| {
+                if let Some(problem) = problem {
                     let color = theme::severity(ui.visuals(), problem.diagnostic.severity);
                     ui.label(RichText::new(&problem.diagnostic.message).color(color));
                     messages::details(ui, problem, &mut Vec::new());
-                });
+                }
+                if problem.is_some() && meaning.is_some() {
+                    ui.separator();
+                }
+                if let Some(meaning) = &meaning {
+                    let font = TextStyle::Monospace.resolve(ui.style());
+                    for line in meaning.usage.lines().flat_map(|line| line.split("    ")) {
+                        ui.label(color(line, ui.visuals().dark_mode, &font));
+                    }
+                    if !meaning.doc.is_empty() {
+                        ui.label(&meaning.doc);
+                    }
+                }
+            },
+        );
+    }
+
+    /// The handle of the number under the pointer.
+    fn tune(&mut self, ui: &Ui, page: &Page<'_>, over_text: bool, commands: &mut Vec<Command>) {
+        let dragged = self.handle.as_ref().is_some_and(tuning::Handle::is_dragged);
+        let pos = ui.input(|i| i.pointer.hover_pos()).filter(|_| over_text && !dragged && self.popup.is_none());
+        let number = pos.and_then(|pos| number_at(page.text, page.byte_at(pos)?));
+        if let (Some(number), Some(pos)) = (number, pos) {
+            let rect = page.rect_of(&number.range);
+            if rect.contains(pos) && self.handle.is_none() {
+                if tuning::Handle::may_come(ui) {
+                    self.handle = Some(tuning::Handle::new(number, rect, page.text));
+                } else {
+                    ui.ctx().request_repaint_after_secs(0.3);
+                }
+            }
+        }
+        let mut stays = true;
+        if let Some(text) = self.handle.as_mut().and_then(|handle| handle.show(ui, &mut stays)) {
+            self.buffer = text;
+            commands.push(Command::Tune(self.buffer.as_str().into()));
+        }
+        if !stays {
+            self.handle = None;
         }
     }
+}
+
+fn own_problems(session: &Session) -> Vec<(&Problem, &Place)> {
+    let place = |problem: &'_ Problem| problem.place.as_ref().is_some_and(|place| place.own);
+    let own = session.problems().iter().filter(|p| place(p));
+    own.filter_map(|problem| Some((problem, problem.place.as_ref()?))).collect()
+}
+
+fn char_range(text: &str, range: &Range<usize>) -> CCursorRange {
+    CCursorRange::two(CCursor::new(char_of(text, range.start)), CCursor::new(char_of(text, range.end)))
 }
 
 fn header(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -158,6 +422,12 @@ fn header(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 let response = response.accessible_name("Save the program");
                 if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &Command::Save)).clicked() {
                     commands.push(Command::Save);
+                }
+                if session.text_waits() {
+                    let response = ui.add(egui::Button::new("Run").small()).accessible_name("Run the changed text");
+                    if response.on_hover_text("the text has changed since it was run (F5)").clicked() {
+                        commands.push(Command::Run);
+                    }
                 }
                 if program.is_modified() {
                     ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
@@ -220,162 +490,18 @@ fn color(text: &str, dark: bool, font: &FontId) -> LayoutJob {
     job
 }
 
-/// Tab inserts spaces, Enter keeps the indentation and deepens it after `{`, `}` on an empty line takes it back: what
-/// egui would insert is replaced before it sees the keys.
-fn indent_by_hand(ui: &Ui, id: Id, text: &str) {
-    if !ui.memory(|m| m.has_focus(id)) {
+fn place_cursor(ui: &Ui, output: &TextEditOutput, text: &str, reveal: &Reveal) {
+    let range = char_range(text, &reveal.range);
+    let mut state = output.state.clone();
+    state.cursor.set_char_range(Some(range));
+    state.store(ui.ctx(), id());
+    if reveal.focus {
+        ui.memory_mut(|m| m.request_focus(id()));
+    }
+    if reveal.range == (0..0) {
+        ui.scroll_to_rect(output.response.response.rect, Some(Align::Min));
         return;
     }
-    let Some(range) = TextEdit::load_state(ui.ctx(), id).and_then(|s| s.cursor.char_range()) else { return };
-    let cursor = byte_of(text, range.as_sorted_char_range().start.0);
-    let line = text.get(..cursor).unwrap_or_default().rsplit('\n').next().unwrap_or_default();
-    let indentation: String = line.chars().take_while(|c| *c == ' ' || *c == '\t').collect();
-    ui.input_mut(|input| {
-        for event in &mut input.events {
-            match event {
-                Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.is_none() => {
-                    *event = Event::Text(INDENT.to_owned());
-                }
-                Event::Key { key: Key::Enter, pressed: true, modifiers, .. } if modifiers.is_none() => {
-                    let deeper = if line.trim_end().ends_with('{') { INDENT } else { "" };
-                    let inserted = format!("\n{indentation}{deeper}");
-                    if inserted.len() > 1 {
-                        *event = Event::Text(inserted);
-                    }
-                }
-                _ => {}
-            }
-        }
-    });
-}
-
-fn place_cursor(ui: &Ui, id: Id, output: &egui::text_edit::TextEditOutput, text: &str, range: Range<usize>) {
-    let (start, end) = (CCursor::new(char_of(text, range.start)), CCursor::new(char_of(text, range.end)));
-    let mut state = output.state.clone();
-    state.cursor.set_char_range(Some(CCursorRange::two(start, end)));
-    state.store(ui.ctx(), id);
-    let rect = output.galley.pos_from_cursor(start).translate(output.galley_pos.to_vec2());
-    if range != (0..0) {
-        ui.memory_mut(|m| m.request_focus(id));
-    }
+    let rect = output.galley.pos_from_cursor(range.secondary).translate(output.galley_pos.to_vec2());
     ui.scroll_to_rect(rect.expand2(vec2(60.0, 20.0)), Some(Align::Center));
-}
-
-/// The text as it stands on the screen.
-struct Page<'a> {
-    galley: &'a Galley,
-    origin: Pos2,
-    text: &'a str,
-    clip: Rect,
-}
-
-impl Page<'_> {
-    /// Rows are lines: nothing wraps.
-    fn row_rect(&self, row: usize) -> Option<Rect> {
-        self.galley.rows.get(row).map(|r| r.rect().translate(self.origin.to_vec2()))
-    }
-
-    fn row_of(&self, cursor: CCursor) -> usize {
-        self.galley.layout_from_cursor(cursor).row
-    }
-
-    /// What a place covers on its first line; at least a character wide.
-    fn rect_of(&self, place: &Place) -> Rect {
-        let start = floor_char_boundary(self.text, place.range.start);
-        let end = floor_char_boundary(self.text, place.range.end).max(start);
-        let line_end = self.text[start..].find('\n').map_or(self.text.len(), |i| start + i);
-        let at = |byte| self.galley.pos_from_cursor(CCursor::new(char_of(self.text, byte)));
-        let (from, to) = (at(start), at(end.min(line_end)));
-        let right = to.right().max(from.left() + 7.0);
-        Rect::from_min_max(from.min, pos2(right, from.max.y)).translate(self.origin.to_vec2())
-    }
-
-    fn underline(&self, ui: &Ui, problem: &Problem, place: &Place) {
-        let rect = self.rect_of(place);
-        let color = theme::severity(ui.visuals(), problem.diagnostic.severity);
-        wave(&ui.painter().with_clip_rect(self.clip), rect, color);
-    }
-
-    /// The worst message of each line, after its end.
-    fn line_messages(&self, ui: &Ui, problems: &[(&Problem, &Place)]) {
-        let painter = ui.painter().with_clip_rect(self.clip);
-        let font = TextStyle::Small.resolve(ui.style());
-        for row in rows_with_problems(problems) {
-            let Some((problem, _)) = worst(problems, row) else { continue };
-            let Some(rect) = self.row_rect(row as usize - 1) else { continue };
-            if problem.diagnostic.severity < Severity::Warning {
-                continue;
-            }
-            let color = theme::severity(ui.visuals(), problem.diagnostic.severity).gamma_multiply(0.85);
-            let at = pos2(rect.right() + 22.0, rect.center().y);
-            painter.text(at, Align2::LEFT_CENTER, &problem.diagnostic.message, font.clone(), color);
-        }
-    }
-
-    fn gutter(&self, ui: &Ui, gutter: Rect, problems: &[(&Problem, &Place)], cursor_line: Option<usize>) {
-        let painter = ui.painter().with_clip_rect(gutter.intersect(ui.clip_rect()));
-        let font = FontId::monospace(TextStyle::Monospace.resolve(ui.style()).size - 1.5);
-        for row in 0..self.galley.rows.len() {
-            let Some(rect) = self.row_rect(row) else { break };
-            if rect.bottom() < gutter.top() {
-                continue;
-            }
-            if rect.top() > gutter.bottom() {
-                break;
-            }
-            let problem = worst(problems, row as u32 + 1);
-            let color = match problem {
-                Some((problem, _)) => theme::severity(ui.visuals(), problem.diagnostic.severity),
-                None if cursor_line == Some(row) => ui.visuals().text_color(),
-                None => ui.visuals().weak_text_color().gamma_multiply(0.75),
-            };
-            if problem.is_some() {
-                painter.circle_filled(pos2(gutter.left() + 9.0, rect.center().y), 3.5, color);
-            }
-            let at = pos2(gutter.right() - 8.0, rect.center().y);
-            painter.text(at, Align2::RIGHT_CENTER, (row + 1).to_string(), font.clone(), color);
-        }
-    }
-
-    fn problem_at<'p>(&self, pos: Pos2, gutter: Rect, problems: &[(&'p Problem, &Place)]) -> Option<&'p Problem> {
-        if gutter.contains(pos) {
-            let row = (0..self.galley.rows.len())
-                .find(|&row| self.row_rect(row).is_some_and(|r| r.y_range().contains(pos.y)))?;
-            return worst(problems, row as u32 + 1).map(|(problem, _)| problem);
-        }
-        let near = |place: &Place| self.clip.contains(pos) && self.rect_of(place).expand(1.0).contains(pos);
-        problems.iter().find(|(_, place)| near(place)).map(|(problem, _)| *problem)
-    }
-}
-
-fn rows_with_problems(problems: &[(&Problem, &Place)]) -> std::collections::BTreeSet<u32> {
-    problems.iter().map(|(_, place)| place.start.line).collect()
-}
-
-fn worst<'p, 'q>(problems: &[(&'p Problem, &'q Place)], line: u32) -> Option<(&'p Problem, &'q Place)> {
-    let here = problems.iter().filter(|(_, place)| place.start.line == line);
-    // The first of the worst.
-    here.rev().max_by_key(|(problem, _)| problem.diagnostic.severity).copied()
-}
-
-fn wave(painter: &Painter, rect: Rect, color: Color32) {
-    const STEP: f32 = 2.0;
-    let y = rect.bottom() - 1.0;
-    let count = (rect.width() / STEP).ceil() as usize;
-    let points =
-        (0..=count).map(|i| pos2(rect.left() + i as f32 * STEP, y + if i % 2 == 0 { 1.0 } else { -1.0 })).collect();
-    painter.add(Shape::line(points, Stroke::new(1.2, color)));
-}
-
-fn floor_char_boundary(text: &str, byte: usize) -> usize {
-    let byte = byte.min(text.len());
-    (0..=byte).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0)
-}
-
-fn char_of(text: &str, byte: usize) -> usize {
-    text[..floor_char_boundary(text, byte)].chars().count()
-}
-
-fn byte_of(text: &str, index: usize) -> usize {
-    text.char_indices().nth(index).map_or(text.len(), |(byte, _)| byte)
 }

@@ -6,23 +6,41 @@ use eframe::egui::{Context, Event, Key};
 use crate::command::{self, Command};
 use crate::session::Session;
 
-/// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed.
-pub fn take(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
+/// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed; `escape_is_taken` if
+/// Escape closes something.
+pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &mut Vec<Command>) {
     let typing = ctx.egui_wants_keyboard_input();
     for command in command::with_keys() {
         for shortcut in command.describe().shortcuts {
             if typing && !command::acts_while_typing(shortcut) {
                 continue;
             }
+            if escape_is_taken && *command == Command::Stop {
+                continue;
+            }
             // A key that means nothing now is left to whom it may concern.
-            if !command.is_enabled(session) {
+            let editing = super::editor::has_keys(ctx);
+            let undoes = matches!(command, Command::Undo | Command::Redo);
+            let may = command.is_enabled(session) || editing && undoes;
+            if !may {
+                continue;
+            }
+            // Other fields have an undo of their own.
+            if typing && !editing && undoes {
                 continue;
             }
             // Shift makes another key of a letter: `S` is not `s`.
             let sign = shortcut.logical_key == Key::Questionmark; // on many keyboards above another sign
-            let exact = ctx.input(|i| !i.modifiers.shift || shortcut.modifiers.shift || sign);
+            let exact = ctx.input(|i| {
+                (!i.modifiers.shift || shortcut.modifiers.shift || sign)
+                    && (!i.modifiers.alt || shortcut.modifiers.alt || sign)
+            });
             if exact && ctx.input_mut(|i| i.consume_shortcut(shortcut)) {
-                commands.push(command.clone());
+                commands.push(match command {
+                    Command::Undo if editing => Command::UndoText,
+                    Command::Redo if editing => Command::RedoText,
+                    command => command.clone(),
+                });
             }
         }
     }

@@ -45,11 +45,12 @@ impl Session {
             self.dialog = None;
             // The saved text comes back, so that what follows finds nothing to lose.
             self.document.program.text = Arc::clone(&self.document.program.saved);
+            self.text_was_edited();
             if self.is_orphan() {
                 self.document.program.path = None;
             }
             self.ask_now();
-            self.apply(then);
+            self.carry_out(then);
             return;
         }
         match self.document.program.path.clone() {
@@ -57,7 +58,7 @@ impl Session {
                 self.dialog = None;
                 self.save_to(&path);
                 if !self.document.program.is_modified() {
-                    self.apply(then);
+                    self.carry_out(then);
                 }
             }
             // The question stays until the text has a file.
@@ -77,11 +78,13 @@ impl Session {
             self.mesh_chosen = false; // that was for the program before
         }
         self.document.program = program;
+        self.forget_history();
+        self.run_text();
         self.document.rule = None;
         self.document.params.clear();
         self.included.clear();
         self.text_on_disk = None;
-        self.reveal = Some(0..0);
+        self.reveal = Some(super::Reveal { range: 0..0, focus: false });
         self.fit = true;
         self.watch_files();
         self.ask_now();
@@ -122,9 +125,10 @@ impl Session {
                 program.name = crate::document::file_name(path);
                 program.saved = text;
                 self.text_on_disk = None;
+                self.text_was_saved();
+                self.ask_now();
                 if moved {
-                    self.watch_files();
-                    self.ask_now(); // includes are looked for elsewhere now
+                    self.watch_files(); // includes are looked for elsewhere now
                 }
                 let name = self.document.program.name.clone();
                 self.say(Severity::Note, format!("saved {name}"));
@@ -271,7 +275,7 @@ impl Session {
             Purpose::SaveProgram => {
                 self.save_to(&with_extension(path, "vv"));
                 if let Some(then) = then.filter(|_| !self.document.program.is_modified()) {
-                    self.apply(then);
+                    self.carry_out(then);
                 }
             }
             Purpose::ExportMesh => self.export_to(with_extension(path, "obj")),
@@ -311,8 +315,11 @@ impl Session {
         } else if program.is_modified() {
             self.text_on_disk = Some(text);
         } else {
+            let before = Arc::clone(&program.text);
             program.saved = Arc::clone(&text);
             program.text = text;
+            self.record(None, &before, self.state(), self.programs());
+            self.text_was_saved();
             self.ask_now();
         }
     }

@@ -60,7 +60,10 @@ impl Session {
             return;
         }
         self.playing = Some(Instant::now());
+        let before = self.state();
         self.go_to(generation.saturating_add(1));
+        let text = Arc::clone(&self.document.program.text);
+        self.record(Some(super::undo::Kind::Time), &text, before, self.programs());
     }
 
     /// By how much a generation is larger than the one before, from generation 0 to the one shown.
@@ -83,7 +86,7 @@ impl Session {
         let document = &self.document;
         let recipe = Recipe {
             path: document.program.path_or_name(),
-            text: Arc::clone(&document.program.text),
+            text: Arc::clone(&self.text_to_run),
             includes_revision: self.includes_revision,
             mesh: document.mesh.clone(),
             mesh_revision: self.mesh_revision,
@@ -181,6 +184,7 @@ impl Session {
         }
         let text = format!("{}{replacement}{}", &text[..start], &text[end..]);
         self.document.program.text = text.into();
+        self.text_was_edited();
         self.ask_now();
     }
 }

@@ -54,7 +54,7 @@ fn properties_are_those_of_what_has_them() {
 
 #[test]
 fn statements_are_offered_where_they_can_begin() {
-    assert_eq!(within("for¦"), ["forall", "for"]);
+    assert_eq!(within("for¦"), ["for", "forall"], "what is written out already comes first");
     assert_eq!(within("x = for¦"), [""; 0]);
     assert_eq!(within("if (a) sy¦"), ["synchronize", "synchronise"]);
 }

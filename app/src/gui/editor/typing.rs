@@ -1,0 +1,62 @@
+//! Keys that mean more in code: what egui would insert is replaced before it sees the keys.
+
+use std::ops::Range;
+
+use eframe::egui::{Event, Key, Modifiers, Ui};
+
+use super::change::{Change, INDENT, indent};
+
+/// Tab inserts spaces, or moves the lines that are selected; Enter keeps the indentation, deepens it after `{`, and
+/// makes room between braces; `}` on an empty line takes it back. Returns what cannot be said by other keys.
+pub fn take(ui: &Ui, text: &str, selection: &Range<usize>) -> Option<Change> {
+    let before = text.get(..selection.start).unwrap_or_default();
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    let behind = text.get(selection.end..).unwrap_or_default();
+    let several = text.get(selection.clone()).is_some_and(|selected| selected.contains('\n'));
+    ui.input_mut(|input| {
+        if input.consume_key(Modifiers::SHIFT, Key::Tab) {
+            return Some(indent(text, selection, false));
+        }
+        if several && input.consume_key(Modifiers::NONE, Key::Tab) {
+            return Some(indent(text, selection, true));
+        }
+        let mut events = Vec::with_capacity(input.events.len());
+        for event in input.events.drain(..) {
+            match event {
+                Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.is_none() => {
+                    let column = line.chars().count();
+                    events.push(Event::Text(INDENT[column % INDENT.len()..].to_owned()));
+                }
+                Event::Key { key: Key::Enter, pressed: true, modifiers, .. } if modifiers.is_none() => {
+                    new_line(line, behind, &mut events);
+                }
+                Event::Text(ref typed) if typed == "}" && line.len() >= INDENT.len() && line.trim().is_empty() => {
+                    for _ in 0..INDENT.len() {
+                        events.push(pressed(Key::Backspace));
+                    }
+                    events.push(event);
+                }
+                event => events.push(event),
+            }
+        }
+        input.events = events;
+        None
+    })
+}
+
+fn new_line(line: &str, behind: &str, events: &mut Vec<Event>) {
+    let indentation: String = line.chars().take_while(|c| *c == ' ' || *c == '\t').collect();
+    let opens = line.trim_end().ends_with('{');
+    let deeper = if opens { INDENT } else { "" };
+    events.push(Event::Text(format!("\n{indentation}{deeper}")));
+    if opens && behind.trim_start_matches(' ').starts_with('}') {
+        events.push(Event::Text(format!("\n{indentation}")));
+        for _ in 0..=indentation.chars().count() {
+            events.push(pressed(Key::ArrowLeft));
+        }
+    }
+}
+
+fn pressed(key: Key) -> Event {
+    Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE }
+}
