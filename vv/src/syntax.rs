@@ -24,7 +24,8 @@ pub fn parse(file: FileId, text: &str) -> (Ast, Vec<Diagnostic>) {
 
 /// The words of the language, also those that can be names.
 pub fn all_words() -> impl Iterator<Item = &'static str> {
-    [words::RESERVED, words::STATEMENTS, words::PREFIXES, words::INFIXES].into_iter().flatten().copied()
+    let lists = [words::RESERVED, words::STATEMENTS, words::PREFIXES, words::INFIXES];
+    lists.into_iter().flatten().copied().chain([words::FACES])
 }
 
 /// What a stretch of text is, for colouring.

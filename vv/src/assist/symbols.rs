@@ -182,11 +182,17 @@ impl Walk<'_> {
                 }
                 self.statement(body, own.end);
             }
-            StmtKind::Forall { variable, body, .. } => {
-                let (name, place) = (variable.text.clone(), Some(range(variable.span)));
-                let doc = "the vertex that the loop is at".to_owned();
-                self.local(name, place, format!("vertex {}", variable.text), doc, own.clone(), false);
-                self.statement(body, own.end);
+            StmtKind::Forall(forall) => {
+                let (ty, is) = match forall.faces {
+                    Some(_) => ("ring", "the face that the loop is at, as the ring of its corners"),
+                    None => ("vertex", "the vertex that the loop is at"),
+                };
+                let followers = forall.follower.iter().map(|f| (f, "vertex", "the vertex after it in the ring"));
+                for (name, ty, is) in std::iter::once((&forall.variable, ty, is)).chain(followers) {
+                    let usage = format!("{ty} {}", name.text);
+                    self.local(name.text.clone(), Some(range(name.span)), usage, is.to_owned(), own.clone(), false);
+                }
+                self.statement(&forall.body, own.end);
             }
             _ => {}
         }

@@ -95,6 +95,7 @@ pub const WORDS: &[Word] = &[
         begins_statement: false,
     },
     Word { word: "$pos", usage: "vec v$pos", doc: "where v is", class: TokenClass::Property, begins_statement: false },
+    operation("faces", "forall f in faces S", "each face of a set once, as the ring of its corners"),
     literal("null", "x == null    is null in v", "no vertex; in a ring a gap, where the surface is missing"),
     ty(
         "vertex",
@@ -110,6 +111,11 @@ pub const WORDS: &[Word] = &[
         "vec",
         "vec(x, y, z)    vec v;",
         "a position or vector, with v.x, v.y, v.z, + - * /, dot, cross, length, normalize, distance",
+    ),
+    ty(
+        "ring",
+        "ring r;    add x to r;    make r nb_of v;    forall x in r",
+        "a cyclic list of vertices as a value, with all that can be asked of the ring of a vertex",
     ),
     ty("point", "point p;", "another name of vec"),
     ty("vector", "vector v;", "another name of vec"),
