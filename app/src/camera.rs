@@ -54,6 +54,17 @@ impl Camera {
         Self { pivot: bounds.center, world_from_view, distance: 1.0, field_of_view: FIELD_OF_VIEW }.fit(bounds, aspect)
     }
 
+    /// Whether it is anywhere and looks at something: what was computed always is, what was read may not.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let angle = self.field_of_view;
+        self.pivot.is_finite()
+            && self.world_from_view.is_normalized()
+            && self.distance.is_finite()
+            && self.distance > 0.0
+            && (1e-3..3.1).contains(&angle)
+    }
+
     /// Looks from the same side so that the ball just fits, with a margin, into a picture of this width over height.
     #[must_use]
     pub fn fit(self, bounds: Sphere, aspect: f64) -> Self {

@@ -45,6 +45,10 @@ pub enum Command {
     TakeFromDisk,
     /// Goes on with the text in the editor.
     KeepMine,
+    /// Takes what a crash has left behind, or throws it away.
+    AnswerRecovery(bool),
+    /// Forgets which files were open.
+    ForgetRecent,
     /// Answers the question whether to save before something that would lose text.
     AnswerUnsaved(Answer),
     /// Puts a dialog away.
@@ -79,6 +83,8 @@ pub enum Command {
     Back,
     /// To generation 0.
     Rewind,
+    /// To the last generation that was reached.
+    End,
     /// To any generation.
     GoTo(u64),
     /// To any generation, as one of many on the way.
@@ -124,6 +130,8 @@ pub enum Command {
 
     /// When a changed text is run.
     SetReload(Reload),
+    /// How many generations follow each other in a second, at most.
+    SetSpeed(f64),
 
     /// All commands, to be found by typing.
     Palette,
@@ -202,6 +210,8 @@ pub enum Panel {
     Messages,
     /// Parameters, display, statistics.
     Inspector,
+    /// The generations in a row.
+    Timeline,
 }
 
 /// How a command presents itself.
@@ -249,6 +259,13 @@ impl Command {
             Self::Choose(Purpose::ExportMesh) => {
                 ("Save mesh as…", "write the mesh shown into a file; its extension says how", const { &[ctrl(Key::E)] })
             }
+            Self::Choose(Purpose::OpenProject) => {
+                ("Open project…", "open program, mesh, parameters and view together", &[])
+            }
+            Self::Choose(Purpose::SaveProject) => {
+                ("Save project as…", "save program, mesh, parameters and view together", &[])
+            }
+            Self::ForgetRecent => ("Forget recent files", "empty the list of files that were open", &[]),
             Self::Save => ("Save program", "save the program to its file", const { &[ctrl(Key::S)] }),
             Self::Quit => ("Quit", "close the window", const { &[ctrl(Key::Q)] }),
             Self::TakeFromDisk => ("Reload", "take the text on disk; the one in the editor is lost", &[]),
@@ -264,6 +281,7 @@ impl Command {
             Self::SetReload(Reload::ByHand) => ("Run by hand", "run a changed text only when asked to", &[]),
             Self::Step => ("Step", "apply the rule once", const { &[key(Key::S), key(Key::ArrowRight)] }),
             Self::Back => ("Back", "take the last step back", const { &[key(Key::ArrowLeft)] }),
+            Self::End => ("Last generation", "go to the last generation that was reached", const { &[key(Key::End)] }),
             Self::Rewind => ("Rewind", "go back to generation 0", const { &[key(Key::Home)] }),
             Self::Play => ("Play", "step again and again, until stopped", const { &[key(Key::Space)] }),
             Self::Stop => ("Stop", "end what is being computed", const { &[key(Key::Escape)] }),
@@ -293,11 +311,15 @@ impl Command {
             Self::CheatSheet => {
                 ("Keys…", "all keys and what the mouse does", const { &[key(Key::H), key(Key::Questionmark)] })
             }
+            Self::Toggle(Panel::Timeline) => {
+                ("Time line", "show the generations in a row below the picture", const { &[ctrl(Key::Num4)] })
+            }
             Self::Open(_)
             | Self::OpenExample(_)
             | Self::UseMesh(_)
             | Self::SaveTo(_)
             | Self::ExportTo(_)
+            | Self::AnswerRecovery(_)
             | Self::AnswerUnsaved(_)
             | Self::CloseDialog
             | Self::UndoText
@@ -308,6 +330,7 @@ impl Command {
             | Self::Reveal(_)
             | Self::GoTo(_)
             | Self::Scrub(_)
+            | Self::SetSpeed(_)
             | Self::ChooseRule(_)
             | Self::SetParam(..)
             | Self::ResetParam(_)
@@ -322,9 +345,11 @@ impl Command {
     pub fn is_enabled(&self, session: &Session) -> bool {
         match self {
             Self::Back | Self::Rewind => session.document.generation > 0,
+            Self::End => session.document.generation < session.last_reached(),
             Self::Step | Self::Play => session.can_step(),
             Self::Stop => session.is_busy() || session.is_playing(),
             Self::Choose(Purpose::ExportMesh) | Self::CopyImage => session.frame().is_some(),
+            Self::ForgetRecent => !session.recent().is_empty(),
             Self::Undo => session.can_undo(),
             Self::Redo => session.can_redo(),
             Self::Text(TextAction::NextProblem | TextAction::PreviousProblem) => session.has_problems_here(),

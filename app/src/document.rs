@@ -75,7 +75,7 @@ impl ProgramText {
 }
 
 /// Where generation 0 comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum MeshSource {
     /// From the program's `start` alone.
     Empty,

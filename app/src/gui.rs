@@ -7,7 +7,7 @@
 //!   │ text          │                         │ mesh     │
 //!   │               │                         │ params   │
 //!   ├ messages ─────┤                         │ display  │
-//!   │ problems …    │                         │ counts   │
+//!   │ problems …    ├ time line ──────────────┤ counts   │
 //!   └───────────────┴─────────────────────────┴──────────┘
 //! ```
 //!
@@ -24,6 +24,7 @@ mod messages;
 mod palette;
 mod picture;
 mod theme;
+mod timeline;
 mod toolbar;
 mod viewport;
 mod widgets;
@@ -37,6 +38,7 @@ use eframe::{egui, egui_wgpu};
 use crate::command::{Command, ThemeChoice};
 use crate::render;
 use crate::session::Session;
+use crate::store::Store;
 
 /// Points of width that the viewport keeps, whatever stands beside it.
 const VIEWPORT: f32 = 170.0;
@@ -59,7 +61,15 @@ pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>) -> Result<(), Window
         wgpu_options: wgpu_options(),
         ..Default::default()
     };
-    let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, mesh, program)?)));
+    // A window that cannot remember is better than none.
+    let store = Store::user_folder().and_then(|folder| match Store::open(&folder) {
+        Ok(store) => Some(store),
+        Err(error) => {
+            eprintln!("warning: nothing is remembered: {}: {}", folder.display(), crate::files::sentence(&error));
+            None
+        }
+    });
+    let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::with_store(cc, mesh, program, store)?)));
     eframe::run_native("vv", options, create).map_err(|error| WindowError { cause: error.to_string() })
 }
 
@@ -110,11 +120,24 @@ impl App {
         mesh: Option<PathBuf>,
         program: Option<PathBuf>,
     ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+        Self::with_store(cc, mesh, program, None)
+    }
+
+    /// As [`App::new`], with what was remembered, and remembers.
+    ///
+    /// # Errors
+    /// As [`App::new`].
+    pub fn with_store(
+        cc: &eframe::CreationContext<'_>,
+        mesh: Option<PathBuf>,
+        program: Option<PathBuf>,
+        store: Option<Store>,
+    ) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
         theme::install(&cc.egui_ctx);
         let render_state = cc.wgpu_render_state.clone().ok_or("the window has no graphics device")?;
         let ctx = cc.egui_ctx.clone();
         let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || ctx.request_repaint());
-        let session = Session::new(mesh, program, Arc::clone(&wake))?;
+        let session = Session::new(mesh, program, store, Arc::clone(&wake))?;
         Ok(Self {
             session,
             editor: editor::Editor::default(),
@@ -133,6 +156,11 @@ impl App {
     #[must_use]
     pub fn session(&self) -> &Session {
         &self.session
+    }
+
+    /// What the window shows, to do what the system's dialogs do.
+    pub fn session_mut(&mut self) -> &mut Session {
+        &mut self.session
     }
 
     /// Carries a command out as if it came from a menu.
@@ -185,6 +213,9 @@ impl App {
                 .default_size((width * 0.19).clamp(190.0, 270.0))
                 .size_range(INSPECTOR..=(ui.available_width() - VIEWPORT).clamp(INSPECTOR, width * 0.5))
                 .show(ui, |ui| inspector::show(ui, session, commands));
+        }
+        if session.panels.timeline {
+            egui::Panel::bottom("timeline").frame(theme::bar(ui)).show(ui, |ui| timeline::show(ui, session, commands));
         }
         egui::CentralPanel::default()
             .frame(egui::Frame::NONE)

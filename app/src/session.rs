@@ -5,10 +5,11 @@
 
 mod files;
 mod generations;
+mod keeping;
 mod problem;
 mod undo;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -25,11 +26,12 @@ use crate::console::Console;
 use crate::document::{Document, MeshSource, ProgramText};
 use crate::render::Size;
 use crate::scene::{Sphere, Style};
+use crate::store::{Orphan, Store};
 use crate::watch::Watch;
-use crate::worker::{Frame, Request, Ticket, Worker};
+use crate::worker::{Frame, Reached, Request, Ticket, Worker};
 use crate::{evaluation, library};
 
-use files::{Chooser, is_program};
+use files::{Chooser, is_program, is_project};
 pub use problem::{Place, Problem, Problems};
 pub use undo::changed;
 
@@ -38,8 +40,8 @@ const TYPING_PAUSE: Duration = Duration::from_millis(300);
 /// How long a computation may go on for something that is no longer wanted: what is nearly done is worth seeing, so that
 /// a slider shows something while it moves.
 const GRACE: Duration = Duration::from_millis(250);
-/// Time between two generations when playing.
-const BEAT: Duration = Duration::from_millis(600);
+/// Generations in a second when playing, at first.
+pub(crate) const SPEED: f64 = 2.0;
 /// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(6);
 /// Bytes that kept generations may use.
@@ -56,6 +58,10 @@ pub enum Purpose {
     SaveProgram,
     /// To save the mesh.
     ExportMesh,
+    /// To open a project.
+    OpenProject,
+    /// To save a project.
+    SaveProject,
 }
 
 /// A question to the user.
@@ -72,6 +78,11 @@ pub enum Dialog {
         purpose: Purpose,
         /// As typed so far.
         path: String,
+    },
+    /// A window crashed; bring back what was unsaved in it?
+    Recover {
+        /// What the program is called.
+        name: String,
     },
     /// Which command?
     Palette {
@@ -97,7 +108,8 @@ pub enum Stale {
 }
 
 /// Which panels are open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
 pub struct Panels {
     /// Program text.
     pub program: bool,
@@ -105,6 +117,14 @@ pub struct Panels {
     pub messages: bool,
     /// Parameters, display, statistics.
     pub inspector: bool,
+    /// The generations in a row.
+    pub timeline: bool,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self { program: true, messages: true, inspector: true, timeline: true }
+    }
 }
 
 impl Panels {
@@ -115,6 +135,7 @@ impl Panels {
             Panel::Program => self.program,
             Panel::Messages => self.messages,
             Panel::Inspector => self.inspector,
+            Panel::Timeline => self.timeline,
         }
     }
 }
@@ -150,6 +171,8 @@ pub struct Session {
     pub dialog: Option<Dialog>,
     /// When a changed text is run.
     pub reload: Reload,
+    /// How many generations follow each other in a second when playing, at most.
+    pub speed: f64,
     /// A place of the program that the editor shall show; the editor takes it.
     pub reveal: Option<Reveal>,
     /// What the editor shall do; the editor takes it.
@@ -159,6 +182,10 @@ pub struct Session {
     /// The viewport shall bring all in sight; the viewport takes it.
     pub fit: bool,
 
+    store: Option<Store>,
+    orphan: Option<Orphan>,
+    keeping: keeping::Keeping,
+    recent: Vec<PathBuf>,
     worker: Worker,
     watch: Watch,
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -182,6 +209,8 @@ pub struct Session {
     problems: Problems,
 
     playing: Option<Instant>,
+    /// How often it was played.
+    plays: u64,
     text_on_disk: Option<Arc<str>>,
     chooser: Option<Chooser>,
     background: Vec<Receiver<Result<String, String>>>,
@@ -193,13 +222,14 @@ pub struct Session {
 
 impl Session {
     /// Opens the files given; for what is not given, something that ships with vv. `wake` is called, from other threads,
-    /// when [`Session::poll`] has something to take in.
+    /// when [`Session::poll`] has something to take in. Without `store` nothing is remembered.
     ///
     /// # Errors
     /// When the system gives no threads.
     pub fn new(
         mesh: Option<PathBuf>,
         program: Option<PathBuf>,
+        store: Option<Store>,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<Self> {
         let limits = evaluation::machine_limits();
@@ -209,7 +239,8 @@ impl Session {
         let mut session = Self {
             document: welcome(mesh.is_none() && program.is_none()),
             theme: ThemeChoice::System,
-            panels: Panels { program: true, messages: true, inspector: true },
+            panels: Panels::default(),
+            speed: SPEED,
             full_screen: false,
             dialog: None,
             reload: Reload::Typed,
@@ -217,6 +248,10 @@ impl Session {
             text_actions: Vec::new(),
             view: None,
             fit: true,
+            store: None,
+            orphan: None,
+            keeping: keeping::Keeping::default(),
+            recent: Vec::new(),
             worker,
             watch,
             wake,
@@ -234,6 +269,7 @@ impl Session {
             program: None,
             problems: Problems::default(),
             playing: None,
+            plays: 0,
             text_on_disk: None,
             chooser: None,
             background: Vec::new(),
@@ -242,6 +278,9 @@ impl Session {
             wants_quit: false,
         };
         session.text_to_run = Arc::clone(&session.document.program.text);
+        if let Some(store) = store {
+            session.remember_with(store);
+        }
         session.ask_now();
         if let Some(path) = program {
             session.open_program(&path);
@@ -274,6 +313,10 @@ impl Session {
                 let path = path.clone();
                 self.unless_unsaved(command, |s| s.open_program(&path));
             }
+            Command::Open(ref path) if is_project(path) => {
+                let path = path.clone();
+                self.unless_unsaved(command, |s| s.open_project(&path));
+            }
             Command::Open(path) => self.use_mesh(MeshSource::File(path)),
             Command::OpenExample(name) => self.unless_unsaved(command, |s| {
                 if let Some(example) = library::program(name) {
@@ -300,7 +343,10 @@ impl Session {
                     self.document.program.saved = text;
                 }
             }
+            Command::AnswerRecovery(take) => self.answer_recovery(take),
+            Command::ForgetRecent => self.recent.clear(),
             Command::AnswerUnsaved(answer) => self.answer_unsaved(answer),
+            // A text that nobody has said anything about is kept.
             Command::CloseDialog => self.dialog = None,
             Command::Quit => self.unless_unsaved(command, |s| s.wants_quit = true),
 
@@ -351,9 +397,13 @@ impl Session {
             Command::Step => self.go_to(generation.saturating_add(1)),
             Command::Back => self.pause_and_go_to(generation.saturating_sub(1)),
             Command::Rewind => self.pause_and_go_to(0),
+            Command::End => self.pause_and_go_to(self.last_reached()),
             Command::GoTo(generation) | Command::Scrub(generation) => self.pause_and_go_to(generation),
             Command::Play if self.playing.is_some() => self.playing = None,
-            Command::Play => self.playing = Some(Instant::now()),
+            Command::Play => {
+                self.playing = Some(Instant::now());
+                self.plays += 1;
+            }
             Command::Stop => self.stop(),
 
             Command::ChooseRule(name) => {
@@ -392,6 +442,8 @@ impl Session {
             Command::Toggle(Panel::Program) => self.panels.program = !self.panels.program,
             Command::Toggle(Panel::Messages) => self.panels.messages = !self.panels.messages,
             Command::Toggle(Panel::Inspector) => self.panels.inspector = !self.panels.inspector,
+            Command::Toggle(Panel::Timeline) => self.panels.timeline = !self.panels.timeline,
+            Command::SetSpeed(speed) => self.speed = speed.clamp(0.1, 60.0),
         }
     }
 
@@ -406,16 +458,17 @@ impl Session {
         self.take_choice();
         self.take_background();
         self.play();
+        let keep = self.keep();
         self.ask();
         if self.notice.as_ref().is_some_and(|(.., since)| since.elapsed() > NOTICE) {
             self.notice = None;
         }
         let now = Instant::now();
-        let beat = self.playing.map(|last| last + BEAT);
+        let beat = self.playing.map(|last| last + self.beat());
         let grace = self.running.as_ref().filter(|_| self.due.is_some()).map(|r| r.since + GRACE);
         let notice = self.notice.as_ref().map(|(.., since)| *since + NOTICE);
         let clock = self.running.as_ref().map(|_| now + Duration::from_millis(100));
-        let next = [self.due.max(grace), beat, notice, clock].into_iter().flatten().min()?;
+        let next = [self.due.max(grace), beat, notice, clock, keep].into_iter().flatten().min()?;
         Some(next.saturating_duration_since(now).max(Duration::from_millis(5)))
     }
 
@@ -429,6 +482,18 @@ impl Session {
     #[must_use]
     pub fn stale(&self) -> Option<&Stale> {
         self.stale.as_ref()
+    }
+
+    /// The generations that were reached, with what is known of them.
+    #[must_use]
+    pub fn reached(&self) -> BTreeMap<u64, Reached> {
+        self.worker.reached().clone()
+    }
+
+    /// The last of them.
+    #[must_use]
+    pub fn last_reached(&self) -> u64 {
+        self.worker.reached().last_key_value().map_or(0, |(generation, _)| *generation)
     }
 
     /// Seconds since the worker began, and the generation it is at; `None` if it rests.
@@ -580,7 +645,7 @@ fn welcome(refined: bool) -> Document {
         program: program.map_or_else(|| ProgramText::new("untitled.vv", ""), |p| ProgramText::new(p.name, p.text)),
         mesh: welcome_mesh(),
         rule: None,
-        params: std::collections::BTreeMap::<String, Value>::new(),
+        params: BTreeMap::<String, Value>::new(),
         generation: if refined { 2 } else { 0 },
         style: Style { control: true, ..Style::default() },
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something

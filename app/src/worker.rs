@@ -150,6 +150,17 @@ pub struct Timings {
     pub scene: f64,
 }
 
+/// What is known of a generation that was reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// Members of its mesh.
+    pub vertices: usize,
+    /// Seconds the program took.
+    pub step: f64,
+    /// Whether it is kept; else going there computes it again.
+    pub kept: bool,
+}
+
 /// Why a request ended without a mesh.
 #[derive(Debug, Clone)]
 pub struct Failed {
@@ -175,6 +186,7 @@ struct Shared {
     slot: Mutex<Slot>,
     filled: Condvar,
     console: Mutex<Console>,
+    reached: Mutex<BTreeMap<u64, Reached>>,
 }
 
 #[derive(Default)]
@@ -196,7 +208,12 @@ impl Worker {
     /// # Errors
     /// When the system gives no thread.
     pub fn start(limits: Limits, memory: usize, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
-        let shared = Arc::new(Shared { slot: Mutex::default(), filled: Condvar::new(), console: Mutex::default() });
+        let shared = Arc::new(Shared {
+            slot: Mutex::default(),
+            filled: Condvar::new(),
+            console: Mutex::default(),
+            reached: Mutex::default(),
+        });
         let (sender, reports) = mpsc::channel();
         let bench = Bench::new(Arc::clone(&shared), sender, Arc::new(wake), limits, memory);
         let thread = std::thread::Builder::new()
@@ -220,6 +237,11 @@ impl Worker {
     #[must_use]
     pub fn report(&self) -> Option<Report> {
         self.reports.try_recv().ok()
+    }
+
+    /// The generations that the last recipe has reached.
+    pub fn reached(&self) -> MutexGuard<'_, BTreeMap<u64, Reached>> {
+        lock(&self.shared.reached)
     }
 
     /// What the generations have printed.

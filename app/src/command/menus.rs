@@ -17,8 +17,18 @@ pub const MENUS: &[Menu] = &[
     Menu {
         title: "File",
         groups: &[
-            &[Command::NewProgram, Command::Choose(Purpose::OpenProgram), Command::Choose(Purpose::OpenMesh)],
-            &[Command::Save, Command::Choose(Purpose::SaveProgram), Command::Choose(Purpose::ExportMesh)],
+            &[
+                Command::NewProgram,
+                Command::Choose(Purpose::OpenProgram),
+                Command::Choose(Purpose::OpenMesh),
+                Command::Choose(Purpose::OpenProject),
+            ],
+            &[
+                Command::Save,
+                Command::Choose(Purpose::SaveProgram),
+                Command::Choose(Purpose::SaveProject),
+                Command::Choose(Purpose::ExportMesh),
+            ],
             &[Command::Quit],
         ],
     },
@@ -46,7 +56,7 @@ pub const MENUS: &[Menu] = &[
     Menu {
         title: "Run",
         groups: &[
-            &[Command::Step, Command::Back, Command::Rewind],
+            &[Command::Step, Command::Back, Command::Rewind, Command::End],
             &[Command::Play, Command::Stop],
             &[Command::Run, Command::ResetParams],
             &[Command::SetReload(Reload::Typed), Command::SetReload(Reload::Saved), Command::SetReload(Reload::ByHand)],
@@ -61,6 +71,7 @@ pub const MENUS: &[Menu] = &[
                 Command::Toggle(Panel::Program),
                 Command::Toggle(Panel::Messages),
                 Command::Toggle(Panel::Inspector),
+                Command::Toggle(Panel::Timeline),
                 Command::FullScreen,
             ],
             &[

@@ -28,6 +28,7 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
                     chosen = Some((*purpose, path));
                 }
             }
+            Dialog::Recover { name } => recover(ui, name, commands),
             Dialog::Palette { .. } | Dialog::CheatSheet { .. } => {} // shown above
         }
     });
@@ -57,12 +58,32 @@ fn unsaved(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
     });
 }
 
+fn recover(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    ui.heading("Bring back unsaved work?");
+    ui.add_space(4.0);
+    ui.label(format!("vv ended unexpectedly while {name} had changes that were not saved. They were kept."));
+    ui.add_space(12.0);
+    ui.horizontal(|ui| {
+        if ui.button(RichText::new("Bring back").strong()).clicked() {
+            commands.push(Command::AnswerRecovery(true));
+        }
+        if ui.button("Throw away").clicked() {
+            commands.push(Command::AnswerRecovery(false));
+        }
+        if ui.button("Later").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
 fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec<Command>) -> Option<PathBuf> {
     let (title, verb) = match purpose {
         Purpose::OpenProgram => ("Open program", "Open"),
         Purpose::OpenMesh => ("Open mesh", "Open"),
         Purpose::SaveProgram => ("Save program as", "Save"),
         Purpose::ExportMesh => ("Save mesh as", "Save"),
+        Purpose::OpenProject => ("Open project", "Open"),
+        Purpose::SaveProject => ("Save project as", "Save"),
     };
     ui.heading(title);
     ui.add_space(4.0);
@@ -73,7 +94,7 @@ fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Ve
         response.request_focus();
     }
     let typed = PathBuf::from(path.trim());
-    let saves = matches!(purpose, Purpose::SaveProgram | Purpose::ExportMesh);
+    let saves = matches!(purpose, Purpose::SaveProgram | Purpose::ExportMesh | Purpose::SaveProject);
     let named = !path.trim().is_empty();
     if named && saves && typed.exists() {
         ui.label(RichText::new("This file exists and will be replaced.").color(ui.visuals().warn_fg_color));

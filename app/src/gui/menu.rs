@@ -18,6 +18,10 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         for menu in MENUS {
             ui.menu_button(menu.title, |ui| {
                 ui.set_min_width(210.0);
+                if menu.title == "File" && !session.recent().is_empty() {
+                    ui.menu_button("Open recent", |ui| recent(ui, session, commands));
+                    ui.separator();
+                }
                 entries(ui, session, commands, menu);
             });
             if menu.title == "File" {
@@ -38,6 +42,19 @@ fn entries(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, menu: &M
             menu_item(ui, session, commands, command.clone(), ticks);
         }
     }
+}
+
+fn recent(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    ui.set_min_width(240.0);
+    for path in session.recent() {
+        let response = ui.button(crate::document::file_name(path));
+        if response.on_hover_text(path.display().to_string()).clicked() {
+            commands.push(Command::Open(path.clone()));
+            ui.close();
+        }
+    }
+    ui.separator();
+    menu_item(ui, session, commands, Command::ForgetRecent, false);
 }
 
 fn examples(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

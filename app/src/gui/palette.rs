@@ -132,6 +132,14 @@ fn entries(session: &Session) -> Vec<Entry> {
             });
         }
     }
+    for path in session.recent() {
+        entries.push(Entry {
+            group: "Recent",
+            label: crate::document::file_name(path),
+            tooltip: path.display().to_string(),
+            command: Command::Open(path.clone()),
+        });
+    }
     for example in EXAMPLES.iter() {
         entries.push(Entry {
             group: "Example",

@@ -12,6 +12,7 @@ use super::{Dialog, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::files;
+use crate::project::{self, Project};
 use crate::render::render_image;
 
 /// A file dialog that is gone sooner than this was never there.
@@ -68,7 +69,10 @@ impl Session {
 
     pub(super) fn open_program(&mut self, path: &Path) {
         match files::read_program(path) {
-            Ok(text) => self.set_program(ProgramText::of_file(path, text)),
+            Ok(text) => {
+                self.set_program(ProgramText::of_file(path, text));
+                self.remember(path);
+            }
             Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
         }
     }
@@ -108,6 +112,9 @@ impl Session {
             self.document.generation = 0; // who knows how large it is
         }
         self.playing = None;
+        if let MeshSource::File(path) = &source {
+            self.remember(path);
+        }
         self.document.mesh = source;
         self.mesh_revision += 1;
         self.fit = true;
@@ -126,6 +133,7 @@ impl Session {
                 program.saved = text;
                 self.text_on_disk = None;
                 self.text_was_saved();
+                self.remember(path);
                 self.ask_now();
                 if moved {
                     self.watch_files(); // includes are looked for elsewhere now
@@ -134,6 +142,32 @@ impl Session {
                 self.say(Severity::Note, format!("saved {name}"));
             }
             Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
+        }
+    }
+
+    pub(super) fn open_project(&mut self, path: &Path) {
+        let folder = std::path::absolute(path).ok().and_then(|path| path.parent().map(Path::to_owned));
+        let read = std::fs::read(path).map_err(|error| files::sentence(&error));
+        match read.and_then(|bytes| Project::from_json(&bytes, folder.as_deref())) {
+            Ok(project) => {
+                self.open_document(project);
+                self.remember(path);
+            }
+            Err(error) => self.say(Severity::Error, format!("{}: {error}", path.display())),
+        }
+    }
+
+    fn save_project(&mut self, path: &Path) {
+        let folder = std::path::absolute(path).ok().and_then(|path| path.parent().map(Path::to_owned));
+        let bytes = Project::of(&self.document).to_json(folder.as_deref());
+        let written =
+            bytes.and_then(|bytes| files::write(path, &bytes).map_err(|error| error.diagnostic.message.clone()));
+        match written {
+            Ok(()) => {
+                self.remember(path);
+                self.say(Severity::Note, format!("saved {}", crate::document::file_name(path)));
+            }
+            Err(error) => self.say(Severity::Error, format!("{}: {error}", path.display())),
         }
     }
 
@@ -218,26 +252,33 @@ impl Session {
         }
         dialog = match purpose {
             Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
+            Purpose::OpenProject | Purpose::SaveProject => dialog.add_filter("vv projects", &[project::EXTENSION]),
             Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &Format::EXTENSIONS),
         };
         dialog = match purpose {
             Purpose::SaveProgram => dialog.set_file_name(&program.name),
             Purpose::ExportMesh => dialog.set_file_name("mesh.obj"),
-            Purpose::OpenProgram | Purpose::OpenMesh => dialog,
+            Purpose::SaveProject => dialog.set_file_name(self.project_name()),
+            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => dialog,
         };
         let (sender, result) = mpsc::channel();
         let wake = Arc::clone(&self.wake);
         std::thread::spawn(move || {
             let chosen = pollster::block_on(async {
                 match purpose {
-                    Purpose::OpenProgram | Purpose::OpenMesh => dialog.pick_file().await,
-                    Purpose::SaveProgram | Purpose::ExportMesh => dialog.save_file().await,
+                    Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => dialog.pick_file().await,
+                    Purpose::SaveProgram | Purpose::ExportMesh | Purpose::SaveProject => dialog.save_file().await,
                 }
             });
             let _ = sender.send(chosen.map(|file| file.path().to_owned()));
             wake();
         });
         self.chooser = Some(Chooser { purpose, since: Instant::now(), result });
+    }
+
+    fn project_name(&self) -> String {
+        let name = &self.document.program.name;
+        format!("{}.{}", name.strip_suffix(".vv").unwrap_or(name), project::EXTENSION)
     }
 
     pub(super) fn take_choice(&mut self) {
@@ -255,7 +296,8 @@ impl Session {
                 let path = match purpose {
                     Purpose::SaveProgram => self.document.program.name.clone(),
                     Purpose::ExportMesh => "mesh.obj".to_owned(),
-                    Purpose::OpenProgram | Purpose::OpenMesh => String::new(),
+                    Purpose::SaveProject => self.project_name(),
+                    Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => String::new(),
                 };
                 self.dialog = Some(Dialog::TypePath { purpose, path });
             }
@@ -279,6 +321,8 @@ impl Session {
                 }
             }
             Purpose::ExportMesh => self.export_to(with_extension(path, "obj")),
+            Purpose::OpenProject => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_project(&path)),
+            Purpose::SaveProject => self.save_project(&with_extension(path, project::EXTENSION)),
         }
     }
 
@@ -328,6 +372,11 @@ impl Session {
 /// Whether a path is that of a program.
 pub(super) fn is_program(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("vv"))
+}
+
+/// Whether a path is that of a project.
+pub(super) fn is_project(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(project::EXTENSION))
 }
 
 fn with_extension(path: PathBuf, extension: &str) -> PathBuf {

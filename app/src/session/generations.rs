@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use vv::diagnostic::Severity;
 use vv::engine::FailureKind;
 
-use super::{BEAT, GRACE, Running, Session, Stale};
+use super::{GRACE, Running, Session, Stale};
 use crate::worker::{Event, Failed, Recipe, Report, Request};
 
 /// Playing pauses before a generation that would probably have more vertices.
@@ -40,9 +40,14 @@ impl Session {
         self.say(Severity::Note, "stopped");
     }
 
+    /// Time between two generations when playing.
+    pub(super) fn beat(&self) -> Duration {
+        Duration::from_secs_f64(1.0 / self.speed)
+    }
+
     pub(super) fn play(&mut self) {
         let Some(last) = self.playing else { return };
-        if self.is_busy() || last.elapsed() < BEAT {
+        if self.is_busy() || last.elapsed() < self.beat() {
             return;
         }
         if self.stale.is_some() || !self.can_step() {
@@ -63,7 +68,7 @@ impl Session {
         let before = self.state();
         self.go_to(generation.saturating_add(1));
         let text = Arc::clone(&self.document.program.text);
-        self.record(Some(super::undo::Kind::Time), &text, before, self.programs());
+        self.record(Some(super::undo::Kind::Play(self.plays)), &text, before, self.programs());
     }
 
     /// By how much a generation is larger than the one before, from generation 0 to the one shown.

@@ -71,6 +71,8 @@ pub(super) enum Kind {
     Param(String),
     /// The time line was walked.
     Time,
+    /// Generations were played, for the so manieth time: however long it takes.
+    Play(u64),
     /// Anything that stands alone.
     Other,
 }
@@ -78,8 +80,8 @@ pub(super) enum Kind {
 impl<T> Track<T> {
     fn record(&mut self, number: u64, kind: Kind, joins: impl FnOnce(&Kind) -> bool, before: T) {
         let now = Instant::now();
-        let joins = self.future.is_empty()
-            && self.last.as_ref().is_some_and(|(last, then)| now.duration_since(*then) < TOGETHER && joins(last));
+        let soon = |then: &Instant| now.duration_since(*then) < TOGETHER || matches!(kind, Kind::Play(_));
+        let joins = self.future.is_empty() && self.last.as_ref().is_some_and(|(last, then)| soon(then) && joins(last));
         self.last = Some((kind, now));
         self.future.clear();
         if !joins {

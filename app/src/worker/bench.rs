@@ -16,7 +16,7 @@ use vv::stop::{Stop, Stopped};
 
 use super::history::{History, Kept, frame};
 use super::printer::Printer;
-use super::{Event, Failed, Frame, Recipe, Report, Request, Shared, lock};
+use super::{Event, Failed, Frame, Reached, Recipe, Report, Request, Shared, lock};
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
 use crate::{files, library, trace};
@@ -211,13 +211,26 @@ impl Bench {
             Some(history) if history.recipe == *recipe => history,
             _ => {
                 lock(&self.shared.console).clear();
+                lock(&self.shared.reached).clear();
                 History::new(Arc::clone(recipe))
             }
         };
         let result = self.advance_to(ticket, request, machine, input, stop, &mut history);
+        self.tell_reached(&history);
         // A step that failed leaves the generations before it as they were.
         self.history = Some(history);
         result
+    }
+
+    fn tell_reached(&self, history: &History) {
+        let mut reached = lock(&self.shared.reached);
+        for (&generation, kept) in &history.generations {
+            let Generation { mesh, step_s, .. } = &kept.generation;
+            reached.insert(generation, Reached { vertices: mesh.set.len(), step: *step_s, kept: true });
+        }
+        for (generation, reached) in reached.iter_mut() {
+            reached.kept = history.generations.contains_key(generation);
+        }
     }
 
     fn advance_to(
@@ -267,6 +280,7 @@ impl Bench {
             let kept = Kept { generation: result.map_err(failed)?, frame: None };
             history.generations.insert(generation, kept);
             history.evict(self.memory, generation);
+            self.tell_reached(&history);
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
         let frame = history.frame(request, stop).map_err(stopped)?;

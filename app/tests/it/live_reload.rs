@@ -27,7 +27,7 @@ impl Bench {
         fs::write(path("a.vv"), program(2.0)).unwrap();
         fs::write(path("more.vv"), "double more() { return 1.0; }\n").unwrap();
         fs::write(path("a.obj"), MESH).unwrap();
-        let mut session = Session::new(Some(path("a.obj")), Some(path("a.vv")), Arc::new(|| {})).unwrap();
+        let mut session = Session::new(Some(path("a.obj")), Some(path("a.vv")), None, Arc::new(|| {})).unwrap();
         session.apply(Command::Step);
         let mut bench = Self { folder, session };
         bench.until("the first picture", |b| b.scale() == Some(2.0));

@@ -1,7 +1,9 @@
 //! The window, driven as a user drives it: by names, keys and the pointer.
 
 mod editor;
+mod keeping;
 mod palette;
+mod timeline;
 
 use std::path::Path;
 use std::time::{Duration, Instant};

@@ -1,0 +1,214 @@
+//! A document as a file: program, mesh, rule, parameters, generation and view.
+//!
+//! JSON, so that it can be read and compared. The text of the program is in it, so that it opens also where the program's
+//! own file is gone; paths below the project's folder are relative, so that a folder can be moved as a whole.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+use vv::mesh::Value;
+
+use crate::camera::Camera;
+use crate::document::{Document, MeshSource, ProgramText};
+use crate::files;
+use crate::scene::Style;
+
+/// What the names of projects end in.
+pub const EXTENSION: &str = "vvp";
+
+/// The form in which projects are written.
+const VERSION: u32 = 1;
+
+/// A document without what belongs to one sitting.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Project {
+    version: u32,
+    /// What the program is called.
+    pub name: String,
+    /// The program's file.
+    #[serde(default)]
+    path: Option<PathBuf>,
+    text: String,
+    mesh: MeshSource,
+    #[serde(default)]
+    rule: Option<String>,
+    #[serde(default)]
+    params: BTreeMap<String, Setting>,
+    #[serde(default)]
+    generation: u64,
+    #[serde(default)]
+    style: Style,
+    camera: Camera,
+}
+
+/// The value of a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Setting {
+    Bool(bool),
+    Int(i64),
+    Double(f64),
+    Vec([f64; 3]),
+}
+
+impl Project {
+    /// Of a document.
+    #[must_use]
+    pub fn of(document: &Document) -> Self {
+        let params = document.params.iter().filter_map(|(name, value)| {
+            let setting = match value {
+                Value::Bool(b) => Setting::Bool(*b),
+                Value::Int(i) => Setting::Int(*i),
+                Value::Double(x) => Setting::Double(*x),
+                Value::Vec(v) => Setting::Vec(v.to_array()),
+                Value::Vertex(_) => return None, // no parameter is one
+            };
+            Some((name.clone(), setting))
+        });
+        Self {
+            version: VERSION,
+            name: document.program.name.clone(),
+            path: document.program.path.clone(),
+            text: document.program.text.to_string(),
+            mesh: document.mesh.clone(),
+            rule: document.rule.clone(),
+            params: params.collect(),
+            generation: document.generation,
+            style: document.style,
+            camera: document.camera,
+        }
+    }
+
+    /// The document. Its text is unsaved where the program's file says something else, or is gone.
+    #[must_use]
+    pub fn into_document(self) -> Document {
+        let saved = self.path.as_deref().and_then(|path| files::read_program(path).ok());
+        let program = match (self.path, saved) {
+            (Some(path), Some(saved)) => ProgramText { text: self.text.into(), ..ProgramText::of_file(&path, saved) },
+            _ => {
+                let shipped = crate::library::program(&self.name).is_some_and(|p| p.text == self.text);
+                let program = ProgramText::new(self.name, self.text);
+                // What has no file is in no file.
+                if shipped { program } else { ProgramText { saved: "".into(), ..program } }
+            }
+        };
+        let params = self.params.into_iter().map(|(name, setting)| {
+            let value = match setting {
+                Setting::Bool(b) => Value::Bool(b),
+                Setting::Int(i) => Value::Int(i),
+                Setting::Double(x) => Value::Double(x),
+                Setting::Vec(v) => Value::Vec(DVec3::from(v)),
+            };
+            (name, value)
+        });
+        Document {
+            program,
+            mesh: self.mesh,
+            rule: self.rule,
+            params: params.collect(),
+            generation: self.generation,
+            style: self.style,
+            camera: self.camera,
+        }
+    }
+
+    /// As a file in a folder.
+    ///
+    /// # Errors
+    /// If it holds a number that JSON has no word for.
+    pub fn to_json(&self, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+        let mut project = self.clone();
+        project.each_path(|path| match folder.and_then(|folder| path.strip_prefix(folder).ok()) {
+            Some(below) if below != Path::new("") => below.to_owned(),
+            _ => path.to_owned(),
+        });
+        serde_json::to_vec_pretty(&project).map_err(|error| error.to_string())
+    }
+
+    /// From a file in a folder.
+    ///
+    /// # Errors
+    /// Says what is wrong with it.
+    pub fn from_json(bytes: &[u8], folder: Option<&Path>) -> Result<Self, String> {
+        let mut project: Self =
+            serde_json::from_slice(bytes).map_err(|error| format!("is no project of vv: {error}"))?;
+        if project.version > VERSION {
+            return Err("was made by a later version of vv".to_owned());
+        }
+        if !project.camera.is_finite() {
+            return Err("is no project of vv: its view is nowhere".to_owned());
+        }
+        project.each_path(|path| folder.map_or_else(|| path.to_owned(), |folder| folder.join(path)));
+        Ok(project)
+    }
+
+    fn each_path(&mut self, change: impl Fn(&Path) -> PathBuf) {
+        let mesh = match &mut self.mesh {
+            MeshSource::File(path) => Some(path),
+            MeshSource::Empty | MeshSource::BuiltIn(_) => None,
+        };
+        for path in self.path.iter_mut().chain(mesh) {
+            *path = change(path);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Sphere;
+
+    fn document() -> Document {
+        let values = [
+            ("b", Value::Bool(true)),
+            ("i", Value::Int(-3)),
+            ("x", Value::Double(2.0)),
+            ("v", Value::Vec(DVec3::new(1.0, 2.5, -1e-9))),
+        ];
+        Document {
+            program: ProgramText::new("untitled.vv", "void f(mesh& S) { }"),
+            mesh: MeshSource::BuiltIn("cube.obj".to_owned()),
+            rule: Some("f".to_owned()),
+            params: values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+            generation: 4,
+            style: Style { smooth: true, ..Style::default() },
+            camera: Camera::standard(Sphere { center: DVec3::ONE, radius: 2.0 }, 1.5),
+        }
+    }
+
+    #[test]
+    fn a_document_comes_back_as_it_was() {
+        let mut document = document();
+        let bytes = Project::of(&document).to_json(None).unwrap();
+        let back = Project::from_json(&bytes, None).unwrap().into_document();
+        assert!(back.program.is_modified(), "it is in no file of its own");
+        document.program.saved = "".into();
+        assert_eq!(back, document);
+    }
+
+    #[test]
+    fn a_folder_is_moved_as_a_whole() {
+        let (old, new) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        std::fs::write(new.path().join("p.vv"), "// other").unwrap();
+        let mut document = document();
+        document.program = ProgramText::of_file(&old.path().join("p.vv"), "// mine");
+        document.mesh = MeshSource::File(old.path().join("m.obj"));
+        let bytes = Project::of(&document).to_json(Some(old.path())).unwrap();
+        let back = Project::from_json(&bytes, Some(new.path())).unwrap().into_document();
+        assert_eq!(back.program.path, Some(new.path().join("p.vv")));
+        assert_eq!((&*back.program.text, &*back.program.saved), ("// mine", "// other"));
+        assert_eq!(back.mesh, MeshSource::File(new.path().join("m.obj")));
+    }
+
+    #[test]
+    fn what_is_no_project_says_so() {
+        for text in ["", "{}", "[1]", "\u{0}"] {
+            assert!(Project::from_json(text.as_bytes(), None).unwrap_err().starts_with("is no project"), "{text:?}");
+        }
+        let later = String::from_utf8(Project::of(&document()).to_json(None).unwrap()).unwrap();
+        let later = later.replace("\"version\": 1", "\"version\": 2");
+        assert_eq!(Project::from_json(later.as_bytes(), None).unwrap_err(), "was made by a later version of vv");
+    }
+}

@@ -1,0 +1,319 @@
+//! Files that the modeler keeps for itself: settings, and what is unsaved, for the case that it ends without being asked.
+//!
+//! Written by a thread of its own, newest first, so that nobody waits for a disk. Each window that is open has a recovery
+//! file with a lock; a recovery file without living lock was left behind by one that crashed.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+
+use serde::{Deserialize, Serialize};
+
+use crate::command::{Reload, ThemeChoice};
+use crate::files;
+use crate::project::Project;
+use crate::session::Panels;
+
+/// Files that are remembered.
+const RECENT: usize = 12;
+
+/// What is remembered from one time to the next.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Light or dark.
+    pub theme: ThemeChoice,
+    /// When a changed text is run.
+    pub reload: Reload,
+    /// Which panels are open.
+    pub panels: Panels,
+    /// Generations a second when playing.
+    pub speed: f64,
+    /// Files that were opened or saved, the last one first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            theme: ThemeChoice::System,
+            reload: Reload::Typed,
+            panels: Panels::default(),
+            speed: crate::session::SPEED,
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl Settings {
+    /// Remembers a file.
+    pub fn remember(&mut self, path: &Path) {
+        // Where it is, wherever the program is started from next time.
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|other| *other != path);
+        self.recent.insert(0, path);
+        self.recent.truncate(RECENT);
+    }
+}
+
+/// Something to be on the disk.
+enum Job {
+    Settings(Settings),
+    /// `None` takes it away.
+    Recovery(Option<Project>),
+}
+
+/// The folder, and the thread that writes to it.
+pub struct Store {
+    folder: PathBuf,
+    jobs: Option<Sender<Job>>,
+    thread: Option<JoinHandle<()>>,
+    trouble: Arc<Mutex<Option<String>>>,
+    /// Held as long as the window lives.
+    _lock: File,
+    lock_path: PathBuf,
+}
+
+/// What a window that crashed has left behind.
+#[derive(Debug)]
+pub struct Orphan {
+    /// What was in it.
+    pub project: Project,
+    path: PathBuf,
+}
+
+impl Orphan {
+    /// It is not needed any more.
+    pub fn forget(self) {
+        let _ = fs::remove_file(self.path.with_extension("lock"));
+        let _ = fs::remove_file(self.path);
+    }
+}
+
+impl Store {
+    /// The folder of this user's settings.
+    #[must_use]
+    pub fn user_folder() -> Option<PathBuf> {
+        let set = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+        let base = if cfg!(windows) {
+            set("APPDATA")
+        } else if cfg!(target_os = "macos") {
+            set("HOME").map(|home| home.join("Library/Application Support"))
+        } else {
+            set("XDG_CONFIG_HOME").or_else(|| set("HOME").map(|home| home.join(".config")))
+        };
+        base.map(|base| base.join("vv"))
+    }
+
+    /// In a folder, which is made if there is none.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn open(folder: &Path) -> std::io::Result<Self> {
+        let recovery_folder = folder.join("recovery");
+        fs::create_dir_all(&recovery_folder)?;
+        let stamp = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+        let lock_path = recovery_folder.join(format!("{}-{}.lock", std::process::id(), stamp.as_nanos()));
+        let lock = File::create(&lock_path)?;
+        lock.lock()?;
+        let (jobs, received) = mpsc::channel();
+        let trouble = Arc::new(Mutex::new(None));
+        let writer = Writer {
+            settings: folder.join("settings.json"),
+            recovery: lock_path.with_extension("json"),
+            trouble: Arc::clone(&trouble),
+        };
+        let thread = std::thread::Builder::new().name("store".to_owned()).spawn(move || writer.work(&received))?;
+        let folder = folder.to_owned();
+        Ok(Self { folder, jobs: Some(jobs), thread: Some(thread), trouble, _lock: lock, lock_path })
+    }
+
+    /// What was remembered; what cannot be read is forgotten.
+    #[must_use]
+    pub fn settings(&self) -> Settings {
+        let bytes = fs::read(self.folder.join("settings.json")).unwrap_or_default();
+        let mut settings: Settings = serde_json::from_slice(&bytes).unwrap_or_default();
+        if !(0.1..=60.0).contains(&settings.speed) {
+            settings.speed = crate::session::SPEED;
+        }
+        settings
+    }
+
+    /// Remembers.
+    pub fn keep_settings(&self, settings: &Settings) {
+        self.send(Job::Settings(settings.clone()));
+    }
+
+    /// Keeps what would be lost; `None` if nothing would.
+    pub fn keep(&self, unsaved: Option<Project>) {
+        self.send(Job::Recovery(unsaved));
+    }
+
+    /// What could not be written, once.
+    #[must_use]
+    pub fn trouble(&self) -> Option<String> {
+        self.trouble.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// What a window that crashed has left behind, the newest.
+    #[must_use]
+    pub fn orphan(&self) -> Option<Orphan> {
+        let files = fs::read_dir(self.folder.join("recovery")).ok()?;
+        let mut found: Vec<(std::time::SystemTime, Orphan)> = Vec::new();
+        for path in files.filter_map(|f| Some(f.ok()?.path())).filter(|p| p.extension().is_some_and(|e| e == "json")) {
+            let lock = path.with_extension("lock");
+            // Who holds the lock is alive.
+            if lock == self.lock_path || File::open(&lock).is_ok_and(|file| file.try_lock().is_err()) {
+                continue;
+            }
+            let project = fs::read(&path).ok().and_then(|bytes| Project::from_json(&bytes, None).ok());
+            let time = fs::metadata(&path).and_then(|m| m.modified());
+            if let (Some(project), Ok(time)) = (project, time) {
+                found.push((time, Orphan { project, path }));
+            }
+        }
+        found.into_iter().max_by_key(|(time, _)| *time).map(|(_, orphan)| orphan)
+    }
+
+    fn send(&self, job: Job) {
+        if let Some(jobs) = &self.jobs {
+            let _ = jobs.send(job);
+        }
+    }
+}
+
+impl Drop for Store {
+    fn drop(&mut self) {
+        self.jobs = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+        let _ = fs::remove_file(&self.lock_path);
+    }
+}
+
+struct Writer {
+    settings: PathBuf,
+    recovery: PathBuf,
+    trouble: Arc<Mutex<Option<String>>>,
+}
+
+impl Writer {
+    fn work(&self, jobs: &Receiver<Job>) {
+        while let Ok(job) = jobs.recv() {
+            let (mut settings, mut recovery) = (None, None);
+            for job in std::iter::once(job).chain(jobs.try_iter()) {
+                match job {
+                    Job::Settings(s) => settings = Some(s),
+                    Job::Recovery(r) => recovery = Some(r),
+                }
+            }
+            match recovery {
+                Some(Some(project)) => self.write(&self.recovery, project.to_json(None)),
+                Some(None) => drop(fs::remove_file(&self.recovery)),
+                None => {}
+            }
+            if let Some(settings) = settings {
+                self.write(&self.settings, serde_json::to_vec_pretty(&settings).map_err(|e| e.to_string()));
+            }
+        }
+    }
+
+    fn write(&self, path: &Path, bytes: Result<Vec<u8>, String>) {
+        let failed = |error: files::FileError| format!("{}: {}", path.display(), error.diagnostic.message);
+        if let Err(error) = bytes.and_then(|bytes| files::write(path, &bytes).map_err(failed)) {
+            *self.trouble.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::document::{Document, MeshSource, ProgramText};
+    use crate::scene::{Sphere, Style};
+
+    fn project(text: &str) -> Project {
+        Project::of(&Document {
+            program: ProgramText::new("mine.vv", text),
+            mesh: MeshSource::Empty,
+            rule: None,
+            params: Default::default(),
+            generation: 0,
+            style: Style::default(),
+            camera: Camera::standard(Sphere { center: glam::DVec3::ZERO, radius: 1.0 }, 1.0),
+        })
+    }
+
+    #[test]
+    fn settings_are_remembered() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut settings = Settings { theme: ThemeChoice::Light, speed: 5.0, ..Settings::default() };
+        for name in ["a", "b", "a"] {
+            settings.remember(&folder.path().join(name));
+        }
+        assert_eq!(settings.recent, [folder.path().join("a"), folder.path().join("b")]);
+        let store = Store::open(folder.path()).unwrap();
+        assert_eq!(store.settings(), Settings::default());
+        store.keep_settings(&settings);
+        drop(store);
+        assert_eq!(Store::open(folder.path()).unwrap().settings(), settings);
+    }
+
+    #[test]
+    fn settings_that_cannot_be_read_are_forgotten() {
+        let folder = tempfile::tempdir().unwrap();
+        for text in ["{", "[]", "{\"speed\": 1e300}", "{\"theme\": \"Pink\"}"] {
+            fs::write(folder.path().join("settings.json"), text).unwrap();
+            assert_eq!(Store::open(folder.path()).unwrap().settings(), Settings::default(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_was_unsaved_is_found_after_a_crash_and_not_while_its_window_lives() {
+        let folder = tempfile::tempdir().unwrap();
+        let crashed = Store::open(folder.path()).unwrap();
+        crashed.keep(Some(project("// old")));
+        crashed.keep(Some(project("// new")));
+        let next = Store::open(folder.path()).unwrap();
+        assert!(next.orphan().is_none(), "it lives");
+        let lock = crashed.lock_path.clone();
+        drop(crashed); // waits for the thread; a crash leaves the file with its lock free
+        assert!(!lock.exists());
+        let orphan = next.orphan().unwrap();
+        assert_eq!(orphan.project, project("// new"));
+        orphan.forget();
+        assert!(next.orphan().is_none());
+    }
+
+    #[test]
+    fn what_is_saved_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).unwrap();
+        store.keep(Some(project("// new")));
+        store.keep(None);
+        drop(store);
+        assert!(Store::open(folder.path()).unwrap().orphan().is_none());
+        assert_eq!(fs::read_dir(folder.path().join("recovery")).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_disk_that_takes_nothing_is_told_of() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).unwrap();
+        fs::remove_dir_all(folder.path().join("recovery")).unwrap();
+        store.keep(Some(project("")));
+        let began = std::time::Instant::now();
+        let trouble = loop {
+            if let Some(trouble) = store.trouble() {
+                break trouble;
+            }
+            assert!(began.elapsed() < std::time::Duration::from_secs(30));
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        };
+        assert!(trouble.contains("there is no directory"), "{trouble}");
+    }
+}

@@ -1,0 +1,122 @@
+//! What is remembered: settings, recent files, unsaved text, projects.
+
+use super::*;
+use app::command::ThemeChoice;
+use app::session::{Dialog, Purpose};
+use app::store::Store;
+use std::sync::Arc;
+
+/// The window with what is remembered in a folder.
+fn open_with(folder: &Path) -> Harness<'static, App> {
+    let store = Store::open(folder).unwrap();
+    let mut window = Harness::builder()
+        .with_size(egui::vec2(1000.0, 700.0))
+        .wgpu()
+        .build_eframe(|cc| App::with_store(cc, None, None, Some(store)).unwrap());
+    window.step();
+    window
+}
+
+#[track_caller]
+fn wait_for(what: &str, mut reached: impl FnMut() -> bool) {
+    let began = Instant::now();
+    while !reached() {
+        assert!(began.elapsed() < Duration::from_secs(30), "waited in vain until {what}");
+        std::thread::sleep(Duration::from_millis(3));
+    }
+}
+
+fn recoveries(folder: &Path) -> Vec<std::path::PathBuf> {
+    let files = std::fs::read_dir(folder.join("recovery")).unwrap().map(|f| f.unwrap().path());
+    files.filter(|p| p.extension().is_some_and(|e| e == "json")).collect()
+}
+
+#[test]
+fn theme_panels_and_files_are_remembered() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.vv");
+    std::fs::write(&path, PROGRAM).unwrap();
+    let mut window = open_with(folder.path());
+    window.state_mut().apply(Command::SetTheme(ThemeChoice::Light));
+    window.state_mut().apply(Command::Toggle(app::command::Panel::Messages));
+    window.state_mut().apply(Command::Open(path.clone()));
+    window.step();
+    drop(window);
+    let mut window = open_with(folder.path());
+    let session = window.state().session();
+    assert_eq!((session.theme, session.panels.messages), (ThemeChoice::Light, false));
+    assert_eq!(session.recent(), [path]);
+    window.get_by_label("File").click();
+    window.run_steps(4);
+    window.get_by_label_contains("Open recent").hover();
+    window.run_steps(12);
+    click(&mut window, "mine.vv");
+    assert_eq!(&*window.state().session().document.program.text, PROGRAM);
+}
+
+#[test]
+fn after_a_crash_unsaved_text_is_brought_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open_with(folder.path());
+    settle(&mut window);
+    write(&mut window, "// typed and never saved\n");
+    wait_for("the text is kept", || {
+        window.step();
+        recoveries(folder.path()).len() == 1
+    });
+    // What a crash leaves is the file without its lock.
+    let kept = &recoveries(folder.path())[0];
+    std::fs::copy(kept, folder.path().join("recovery/1-1.json")).unwrap();
+    drop(window);
+    let mut window = open_with(folder.path());
+    assert!(matches!(&window.state().session().dialog, Some(Dialog::Recover { name }) if name == "loop.vv"));
+    window.run_steps(2);
+    click(&mut window, "Bring back");
+    let session = window.state().session();
+    assert_eq!(&*session.document.program.text, "// typed and never saved\n");
+    assert!(session.document.program.is_modified());
+    assert!(!folder.path().join("recovery/1-1.json").exists());
+}
+
+#[test]
+fn a_window_that_is_closed_leaves_nothing_to_bring_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open_with(folder.path());
+    settle(&mut window);
+    write(&mut window, "// typed\n");
+    wait_for("the text is kept", || {
+        window.step();
+        recoveries(folder.path()).len() == 1
+    });
+    window.state_mut().apply(Command::Quit);
+    window.run_steps(2);
+    click(&mut window, "Don't save");
+    window.step();
+    drop(window);
+    assert!(recoveries(folder.path()).is_empty());
+}
+
+#[test]
+fn a_project_holds_program_mesh_parameters_and_view() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("all.vvp");
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    window.state_mut().apply(Command::SetParam("w".to_owned(), vv::mesh::Value::Double(0.25)));
+    window.state_mut().apply(Command::ChooseRule("shrink".to_owned()));
+    window.state_mut().apply(Command::Step);
+    window.state_mut().apply(Command::Smooth);
+    settle(&mut window);
+    window.state_mut().session_mut().chosen(Purpose::SaveProject, path.clone());
+    let document = window.state().session().document.clone();
+    let mut session = Session::new(None, None, None, Arc::new(|| {})).unwrap();
+    session.apply(Command::Open(path));
+    wait_for("it is computed", || {
+        session.poll();
+        !session.is_busy()
+    });
+    let opened = &session.document;
+    assert_eq!((&opened.mesh, &opened.params, opened.generation), (&document.mesh, &document.params, 1));
+    assert_eq!((opened.style, opened.camera), (document.style, document.camera));
+    assert_eq!(session.frame().unwrap().mesh.positions()[0].length(), 0.25);
+}
