@@ -110,14 +110,14 @@ impl Walk<'_> {
             scope: None,
             is_mesh: false,
         });
-        let Some(body) = function.body.span else { return };
+        let Some((block, body)) = function.body.as_ref().and_then(|block| Some((block, block.span?))) else { return };
         for parameter in &function.parameters {
             let usage = self.line(parameter.span);
             let (name, place) = (parameter.name.text.clone(), Some(range(parameter.name.span)));
             let scope = parameter.span.start as usize..body.end as usize;
             self.local(name, place, usage, String::new(), scope, parameter.ty.kind == TypeKind::Mesh);
         }
-        self.block(&function.body);
+        self.block(block);
     }
 
     fn local(
