@@ -137,6 +137,8 @@ pub enum Command {
     Palette,
     /// All keys.
     CheatSheet,
+    /// The manual of the language, or no more.
+    Reference,
 }
 
 /// What to do with text that is not saved.
@@ -314,6 +316,9 @@ impl Command {
             Self::Toggle(Panel::Timeline) => {
                 ("Time line", "show the generations in a row below the picture", const { &[ctrl(Key::Num4)] })
             }
+            Self::Reference => {
+                ("Language reference", "the manual of the language, beside the work", const { &[key(Key::F1)] })
+            }
             Self::Open(_)
             | Self::OpenExample(_)
             | Self::UseMesh(_)
@@ -374,6 +379,7 @@ impl Command {
             Self::SetTheme(theme) => session.theme == *theme,
             Self::SetReload(reload) => session.reload == *reload,
             Self::FullScreen => session.full_screen,
+            Self::Reference => session.reference,
             _ => return None,
         })
     }
@@ -418,7 +424,7 @@ impl TextAction {
 /// Whether a key acts also while text is being typed.
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
-    let function = matches!(shortcut.logical_key, Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11);
+    let function = matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11);
     shortcut.modifiers.command || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
 }
 

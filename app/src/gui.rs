@@ -23,6 +23,7 @@ mod menu;
 mod messages;
 mod palette;
 mod picture;
+mod reference;
 mod theme;
 mod timeline;
 mod toolbar;
@@ -99,6 +100,7 @@ pub struct App {
     editor: editor::Editor,
     viewport: viewport::Viewport,
     messages: messages::Messages,
+    reference: reference::Reference,
     title: String,
     quitting: bool,
     /// What was asked of the window manager last, and what it said last.
@@ -143,6 +145,7 @@ impl App {
             editor: editor::Editor::default(),
             viewport: viewport::Viewport::new(render_state, wake)?,
             messages: messages::Messages::default(),
+            reference: reference::Reference::default(),
             title: String::new(),
             quitting: false,
             full_screen: false,
@@ -297,6 +300,9 @@ impl eframe::App for App {
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
         self.panels(ui, &mut commands);
+        if self.session.reference {
+            self.reference.show(ui.ctx(), &mut commands);
+        }
         dialogs::show(ui.ctx(), &mut self.session, &mut commands);
         if !commands.is_empty() {
             // What they change is seen in the next frame.

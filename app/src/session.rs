@@ -167,6 +167,8 @@ pub struct Session {
     pub panels: Panels,
     /// Whether the window fills the screen.
     pub full_screen: bool,
+    /// Whether the manual is open.
+    pub reference: bool,
     /// The question that is open. Its text field is edited in place.
     pub dialog: Option<Dialog>,
     /// When a changed text is run.
@@ -242,6 +244,7 @@ impl Session {
             panels: Panels::default(),
             speed: SPEED,
             full_screen: false,
+            reference: false,
             dialog: None,
             reload: Reload::Typed,
             reveal: None,
@@ -437,6 +440,7 @@ impl Session {
             Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,
             Command::FullScreen => self.full_screen = !self.full_screen,
+            Command::Reference => self.reference = !self.reference,
             Command::Palette => self.dialog = Some(Dialog::Palette { query: String::new(), selected: 0 }),
             Command::CheatSheet => self.dialog = Some(Dialog::CheatSheet { query: String::new() }),
             Command::Toggle(Panel::Program) => self.panels.program = !self.panels.program,

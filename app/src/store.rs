@@ -62,7 +62,7 @@ impl Settings {
 enum Job {
     Settings(Settings),
     /// `None` takes it away.
-    Recovery(Option<Project>),
+    Recovery(Option<Box<Project>>),
 }
 
 /// The folder, and the thread that writes to it.
@@ -148,7 +148,7 @@ impl Store {
 
     /// Keeps what would be lost; `None` if nothing would.
     pub fn keep(&self, unsaved: Option<Project>) {
-        self.send(Job::Recovery(unsaved));
+        self.send(Job::Recovery(unsaved.map(Box::new)));
     }
 
     /// What could not be written, once.

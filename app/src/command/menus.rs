@@ -81,7 +81,7 @@ pub const MENUS: &[Menu] = &[
             ],
         ],
     },
-    Menu { title: "Help", groups: &[&[Command::Palette, Command::CheatSheet]] },
+    Menu { title: "Help", groups: &[&[Command::Palette, Command::CheatSheet, Command::Reference]] },
 ];
 
 /// The commands that keys mean.

@@ -468,7 +468,7 @@ fn conflict(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 /// Colours of a text.
-fn color(text: &str, dark: bool, font: &FontId) -> LayoutJob {
+pub fn color(text: &str, dark: bool, font: &FontId) -> LayoutJob {
     let plain = theme::token(dark, vv::syntax::TokenClass::Name);
     let mut job = LayoutJob::default();
     let mut push = |range: Range<usize>, color: Color32, italics: bool| {

@@ -280,7 +280,7 @@ impl Bench {
             let kept = Kept { generation: result.map_err(failed)?, frame: None };
             history.generations.insert(generation, kept);
             history.evict(self.memory, generation);
-            self.tell_reached(&history);
+            self.tell_reached(history);
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
         let frame = history.frame(request, stop).map_err(stopped)?;

@@ -65,3 +65,16 @@ fn the_sheet_of_keys_is_searched() {
     press(&mut window, Key::Escape);
     assert!(window.state().session().dialog.is_none());
 }
+
+#[test]
+fn the_manual_stands_beside_the_work() {
+    let mut window = octahedron();
+    press(&mut window, Key::F1);
+    window.get_by_label("Old values");
+    type_into(&mut window, "Find in the reference", "synchronize");
+    assert!(window.query_by_label("Holes").is_none(), "sections that do not speak of it are left out");
+    press_outside(&mut window, Key::Num1);
+    assert_eq!(faces(&window), 32, "the window goes on meanwhile");
+    press(&mut window, Key::F1);
+    assert!(window.query_by_label("Old values").is_none());
+}
