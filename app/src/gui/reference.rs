@@ -54,7 +54,8 @@ impl Reference {
             .open(&mut open)
             .default_size(size)
             .default_pos(room.right_top() + vec2(-size.x - 40.0, 70.0))
-            .min_width(360.0)
+            .min_width(360.0_f32.min(size.x))
+            .max_width(760.0_f32.min(room.width() - 40.0))
             .collapsible(true)
             .resizable(true)
             .constrain(true)
@@ -65,6 +66,7 @@ impl Reference {
     }
 
     fn content(&mut self, ui: &mut Ui) {
+        ui.set_max_width(ui.available_width().min(760.0));
         let query = self.query.trim().to_lowercase();
         let fits = |section: &Section| query.is_empty() || section.text().to_lowercase().contains(&query);
         ui.horizontal_wrapped(|ui| {
