@@ -102,6 +102,12 @@ pub enum Command {
     ResetParam(String),
     /// All parameters at the program's own values.
     ResetParams,
+    /// Keeps the parameters as they are, under a name.
+    SaveParams(String),
+    /// The parameters as they were kept under a name.
+    UseParams(String),
+    /// Forgets what was kept under a name.
+    ForgetParams(String),
 
     /// How it is drawn.
     SetStyle(Style),
@@ -339,6 +345,9 @@ impl Command {
             | Self::ChooseRule(_)
             | Self::SetParam(..)
             | Self::ResetParam(_)
+            | Self::SaveParams(_)
+            | Self::UseParams(_)
+            | Self::ForgetParams(_)
             | Self::SetStyle(_)
             | Self::SetCamera(_) => ("", "", &[]),
         };

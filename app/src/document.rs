@@ -25,6 +25,8 @@ pub struct Document {
     pub rule: Option<String>,
     /// Values of parameters that are not at their defaults, by name. Those of other programs are harmless.
     pub params: BTreeMap<String, Value>,
+    /// Sets of such values that were given a name.
+    pub param_sets: BTreeMap<String, BTreeMap<String, Value>>,
     /// Which generation is wanted.
     pub generation: u64,
     /// How it is drawn.

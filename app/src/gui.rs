@@ -22,6 +22,7 @@ mod keys;
 mod menu;
 mod messages;
 mod palette;
+mod parameters;
 mod picture;
 mod reference;
 mod theme;

@@ -37,6 +37,8 @@ pub struct Project {
     #[serde(default)]
     params: BTreeMap<String, Setting>,
     #[serde(default)]
+    param_sets: BTreeMap<String, BTreeMap<String, Setting>>,
+    #[serde(default)]
     generation: u64,
     #[serde(default)]
     style: Style,
@@ -57,16 +59,6 @@ impl Project {
     /// Of a document.
     #[must_use]
     pub fn of(document: &Document) -> Self {
-        let params = document.params.iter().filter_map(|(name, value)| {
-            let setting = match value {
-                Value::Bool(b) => Setting::Bool(*b),
-                Value::Int(i) => Setting::Int(*i),
-                Value::Double(x) => Setting::Double(*x),
-                Value::Vec(v) => Setting::Vec(v.to_array()),
-                Value::Vertex(_) => return None, // no parameter is one
-            };
-            Some((name.clone(), setting))
-        });
         Self {
             version: VERSION,
             name: document.program.name.clone(),
@@ -74,7 +66,8 @@ impl Project {
             text: document.program.text.to_string(),
             mesh: document.mesh.clone(),
             rule: document.rule.clone(),
-            params: params.collect(),
+            params: settings(&document.params),
+            param_sets: document.param_sets.iter().map(|(name, set)| (name.clone(), settings(set))).collect(),
             generation: document.generation,
             style: document.style,
             camera: document.camera,
@@ -94,20 +87,12 @@ impl Project {
                 if shipped { program } else { ProgramText { saved: "".into(), ..program } }
             }
         };
-        let params = self.params.into_iter().map(|(name, setting)| {
-            let value = match setting {
-                Setting::Bool(b) => Value::Bool(b),
-                Setting::Int(i) => Value::Int(i),
-                Setting::Double(x) => Value::Double(x),
-                Setting::Vec(v) => Value::Vec(DVec3::from(v)),
-            };
-            (name, value)
-        });
         Document {
             program,
             mesh: self.mesh,
             rule: self.rule,
-            params: params.collect(),
+            params: values(self.params),
+            param_sets: self.param_sets.into_iter().map(|(name, set)| (name, values(set))).collect(),
             generation: self.generation,
             style: self.style,
             camera: self.camera,
@@ -155,6 +140,33 @@ impl Project {
     }
 }
 
+fn settings(values: &BTreeMap<String, Value>) -> BTreeMap<String, Setting> {
+    let setting = |(name, value): (&String, &Value)| {
+        let setting = match value {
+            Value::Bool(b) => Setting::Bool(*b),
+            Value::Int(i) => Setting::Int(*i),
+            Value::Double(x) => Setting::Double(*x),
+            Value::Vec(v) => Setting::Vec(v.to_array()),
+            Value::Vertex(_) => return None, // no parameter is one
+        };
+        Some((name.clone(), setting))
+    };
+    values.iter().filter_map(setting).collect()
+}
+
+fn values(settings: BTreeMap<String, Setting>) -> BTreeMap<String, Value> {
+    let value = |(name, setting)| {
+        let value = match setting {
+            Setting::Bool(b) => Value::Bool(b),
+            Setting::Int(i) => Value::Int(i),
+            Setting::Double(x) => Value::Double(x),
+            Setting::Vec(v) => Value::Vec(DVec3::from(v)),
+        };
+        (name, value)
+    };
+    settings.into_iter().map(value).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,11 +179,14 @@ mod tests {
             ("x", Value::Double(2.0)),
             ("v", Value::Vec(DVec3::new(1.0, 2.5, -1e-9))),
         ];
+        let params: BTreeMap<String, Value> =
+            values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
         Document {
             program: ProgramText::new("untitled.vv", "void f(mesh& S) { }"),
             mesh: MeshSource::BuiltIn("cube.obj".to_owned()),
             rule: Some("f".to_owned()),
-            params: values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+            param_sets: [("wide".to_owned(), params.clone())].into(),
+            params,
             generation: 4,
             style: Style { smooth: true, ..Style::default() },
             camera: Camera::standard(Sphere { center: DVec3::ONE, radius: 2.0 }, 1.5),

@@ -296,7 +296,9 @@ impl Session {
 
     /// Carries a command out. The only place where a document changes.
     pub fn apply(&mut self, command: Command) {
-        let is_undo = matches!(command, Command::Undo | Command::Redo | Command::UndoText | Command::RedoText);
+        // What was stopped was not reached: it is nothing to come back to.
+        let is_undo =
+            matches!(command, Command::Undo | Command::Redo | Command::UndoText | Command::RedoText | Command::Stop);
         let (kind, programs) = (undo::kind_of(&command), self.programs());
         let (text, state) = (Arc::clone(&self.document.program.text), self.state());
         self.carry_out(command);
@@ -424,6 +426,20 @@ impl Session {
             Command::ResetParams => {
                 self.document.params.clear();
                 self.ask_now();
+            }
+
+            Command::SaveParams(name) => {
+                let values = self.document.params.clone();
+                self.document.param_sets.insert(name, values);
+            }
+            Command::UseParams(name) => {
+                if let Some(values) = self.document.param_sets.get(&name) {
+                    self.document.params.clone_from(values);
+                    self.ask_now();
+                }
+            }
+            Command::ForgetParams(name) => {
+                self.document.param_sets.remove(&name);
             }
 
             Command::SetStyle(style) => self.document.style = style,
@@ -650,6 +666,7 @@ fn welcome(refined: bool) -> Document {
         mesh: welcome_mesh(),
         rule: None,
         params: BTreeMap::<String, Value>::new(),
+        param_sets: BTreeMap::new(),
         generation: if refined { 2 } else { 0 },
         style: Style { control: true, ..Style::default() },
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something

@@ -242,6 +242,7 @@ mod tests {
             mesh: MeshSource::Empty,
             rule: None,
             params: Default::default(),
+            param_sets: Default::default(),
             generation: 0,
             style: Style::default(),
             camera: Camera::standard(Sphere { center: glam::DVec3::ZERO, radius: 1.0 }, 1.0),

@@ -28,6 +28,13 @@ use page::{Page, byte_of, char_of};
 /// Seconds that the pointer rests on a word before it is explained.
 const REST: f32 = 0.45;
 
+/// What a right click offers.
+const MENU: &[&[Command]] = &[
+    &[Command::Text(TextAction::Declaration), Command::Text(TextAction::Complete)],
+    &[Command::Text(TextAction::ToggleComment), Command::Text(TextAction::Format)],
+    &[Command::Text(TextAction::Find), Command::Text(TextAction::Replace)],
+];
+
 /// The panel's own state.
 #[derive(Default)]
 pub struct Editor {
@@ -222,7 +229,18 @@ impl Editor {
             let Range { start, end } = range.as_sorted_char_range();
             self.selected = byte_of(&self.buffer, start.0)..byte_of(&self.buffer, end.0);
         }
-        output.response.response.clone().accessible_name("Program text");
+        let response = output.response.response.clone().accessible_name("Program text");
+        response.context_menu(|ui| {
+            ui.set_min_width(200.0);
+            for (i, group) in MENU.iter().enumerate() {
+                if i > 0 {
+                    ui.separator();
+                }
+                for command in *group {
+                    super::widgets::menu_item(ui, session, commands, command.clone(), false);
+                }
+            }
+        });
         let changed = output.response.changed();
         if changed {
             commands.push(Command::Edit(self.buffer.as_str().into()));

@@ -1,9 +1,8 @@
-//! Mesh, parameters, display, counts.
+//! Mesh, display, counts.
 
-use eframe::egui::{self, Align, DragValue, Grid, Layout, RichText, ScrollArea, Slider, Ui, Vec2b};
-use vv::ir::{Global, Param};
-use vv::mesh::Value;
+use eframe::egui::{self, Align, Grid, Layout, RichText, ScrollArea, Ui, Vec2b};
 
+use super::parameters;
 use super::widgets::{button, grouped, heading, seconds, switch};
 use crate::command::Command;
 use crate::session::{Purpose, Session};
@@ -23,7 +22,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             });
         });
         ui.separator();
-        parameters(ui, session, commands);
+        parameters::show(ui, session, commands);
         heading(ui, "Display");
         Grid::new("display").num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {
             switch(ui, session, commands, Command::Faces);
@@ -45,76 +44,6 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             }
         }
     });
-}
-
-fn parameters(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let Some(program) = session.program() else { return };
-    if program.params().next().is_none() {
-        return;
-    }
-    ui.add_space(4.0);
-    ui.horizontal(|ui| {
-        ui.label(RichText::new("Parameters").strong());
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            button(ui, session, commands, Command::ResetParams);
-        });
-    });
-    for (_, global, param) in program.params() {
-        let value = session.document.params.get(&global.name).copied();
-        let value = value.filter(|v| v.ty() == global.ty).unwrap_or(param.default);
-        if let Some(value) = parameter(ui, global, param, value) {
-            // At its default a parameter follows the program again.
-            commands.push(if value == param.default {
-                Command::ResetParam(global.name.clone())
-            } else {
-                Command::SetParam(global.name.clone(), value)
-            });
-        }
-    }
-    ui.separator();
-}
-
-/// A field for a parameter; its value if the user has changed it.
-fn parameter(ui: &mut Ui, global: &Global, param: &Param, value: Value) -> Option<Value> {
-    let name = &global.name;
-    match (value, param.range) {
-        (Value::Bool(mut on), _) => ui.checkbox(&mut on, name).changed().then_some(Value::Bool(on)),
-        (Value::Int(mut x), range) => {
-            let label = ui.label(name);
-            let response = match range {
-                Some((Value::Int(low), Value::Int(high))) => slider(ui, Slider::new(&mut x, low..=high)),
-                _ => ui.add(DragValue::new(&mut x).speed(0.1)),
-            };
-            response.labelled_by(label.id).changed().then_some(Value::Int(x))
-        }
-        (Value::Double(mut x), range) => {
-            let label = ui.label(name);
-            let response = match range {
-                Some((Value::Double(low), Value::Double(high))) => {
-                    slider(ui, Slider::new(&mut x, low..=high).smart_aim(true).max_decimals(6))
-                }
-                _ => ui.add(DragValue::new(&mut x).speed(0.01).max_decimals(6)),
-            };
-            response.labelled_by(label.id).changed().then_some(Value::Double(x))
-        }
-        (Value::Vec(mut v), _) => {
-            let label = ui.label(name);
-            let mut changed = false;
-            ui.horizontal(|ui| {
-                for x in [&mut v.x, &mut v.y, &mut v.z] {
-                    let field = ui.add(DragValue::new(x).speed(0.01).max_decimals(4));
-                    changed |= field.labelled_by(label.id).changed();
-                }
-            });
-            changed.then_some(Value::Vec(v))
-        }
-        (Value::Vertex(_), _) => None, // no literal, no field
-    }
-}
-
-fn slider(ui: &mut Ui, slider: Slider<'_>) -> egui::Response {
-    ui.spacing_mut().slider_width = (ui.available_width() - 66.0).max(40.0);
-    ui.add(slider)
 }
 
 fn statistics(ui: &mut Ui, frame: &Frame) {

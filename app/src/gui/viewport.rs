@@ -15,7 +15,7 @@ use vv::diagnostic::Severity;
 
 use super::picture::Picture;
 use super::theme;
-use super::widgets::{grouped, seconds};
+use super::widgets::{grouped, menu_item, seconds};
 use crate::camera::{Camera, picture_point};
 use crate::command::Command;
 use crate::render::{RenderError, Size};
@@ -29,10 +29,18 @@ pub const HANDS: &[(&str, &str)] = &[
     ("right drag, middle drag, Shift + left drag", "shift"),
     ("wheel, pinch", "zoom to the pointer"),
     ("double click", "turn around this point"),
+    ("right click", "open a menu"),
 ];
 
 /// Points around the pointer within which edges and vertices are meant, too.
 const NEAR: f32 = 6.0;
+
+/// What a right click offers.
+const MENU: &[&[Command]] = &[
+    &[Command::Step, Command::Back],
+    &[Command::Fit, Command::CopyImage],
+    &[Command::Faces, Command::Smooth, Command::Edges, Command::Vertices, Command::Control],
+];
 
 /// The panel's own state.
 pub struct Viewport {
@@ -73,6 +81,17 @@ impl Viewport {
             camera = moved;
             commands.push(Command::SetCamera(camera));
         }
+        response.context_menu(|ui| {
+            ui.set_min_width(200.0);
+            for (i, group) in MENU.iter().enumerate() {
+                if i > 0 {
+                    ui.separator();
+                }
+                for command in *group {
+                    menu_item(ui, session, commands, command.clone(), true);
+                }
+            }
+        });
         session.view = Some((size, style));
         match self.picture.texture(size, &frame.scene, &camera, &style) {
             Ok(texture) => {

@@ -86,6 +86,7 @@ impl Session {
         self.run_text();
         self.document.rule = None;
         self.document.params.clear();
+        self.document.param_sets.clear();
         self.included.clear();
         self.text_on_disk = None;
         self.reveal = Some(super::Reveal { range: 0..0, focus: false });

@@ -29,6 +29,7 @@ pub(super) struct State {
     mesh_chosen: bool,
     rule: Option<String>,
     params: BTreeMap<String, Value>,
+    param_sets: BTreeMap<String, BTreeMap<String, Value>>,
     generation: u64,
 }
 
@@ -115,6 +116,7 @@ impl Session {
             mesh_chosen: self.mesh_chosen,
             rule: d.rule.clone(),
             params: d.params.clone(),
+            param_sets: d.param_sets.clone(),
             generation: d.generation,
         }
     }
@@ -226,6 +228,7 @@ impl Session {
         self.document.mesh = state.mesh;
         self.document.rule = state.rule;
         self.document.params = state.params;
+        self.document.param_sets = state.param_sets;
         self.document.generation = state.generation;
         if other_mesh {
             self.fit = true;

@@ -12,4 +12,5 @@ mod fixtures;
 mod live_reload;
 mod pictures;
 mod shaders;
+mod soak;
 mod window;

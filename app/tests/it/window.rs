@@ -509,3 +509,32 @@ fn a_text_whose_file_is_gone_is_asked_about_before_it_is_lost() {
     assert!(window.state().session().dialog.is_none());
     assert_eq!(&*window.state().session().document.program.text, "");
 }
+
+#[test]
+fn a_parameter_is_reset_alone_and_values_are_kept_under_a_name() {
+    let mut window = octahedron();
+    write(&mut window, "param double w = 0.5 in [0, 1]; // how much\nparam bool b = true;\nvoid f(mesh& S) { }\n");
+    let set = |window: &mut Harness<'static, App>, w, b| {
+        window.state_mut().apply(Command::SetParam("w".to_owned(), vv::mesh::Value::Double(w)));
+        window.state_mut().apply(Command::SetParam("b".to_owned(), vv::mesh::Value::Bool(b)));
+        settle(window);
+    };
+    set(&mut window, 0.25, false);
+    window.get_by_label("Sets").click();
+    window.run_steps(4);
+    window.get_by_label("Name of the set").focus();
+    window.step();
+    window.get_by_label("Name of the set").type_text("narrow");
+    window.run_steps(2);
+    click(&mut window, "Keep");
+    press_outside(&mut window, Key::Escape);
+    click(&mut window, "Reset w");
+    let params = |window: &Harness<'static, App>| window.state().session().document.params.clone();
+    assert_eq!(params(&window).keys().collect::<Vec<_>>(), ["b"]);
+    set(&mut window, 0.75, true);
+    window.get_by_label("Sets").click();
+    window.run_steps(4);
+    click(&mut window, "narrow");
+    let expected = [("b", vv::mesh::Value::Bool(false)), ("w", vv::mesh::Value::Double(0.25))];
+    assert_eq!(params(&window), expected.map(|(name, value)| (name.to_owned(), value)).into());
+}

@@ -1,0 +1,124 @@
+//! Thousands of random commands: whatever comes, the session stays in order.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use app::camera::Camera;
+use app::command::{Answer, Command, MENUS, Panel, Reload, TextAction, ThemeChoice};
+use app::document::MeshSource;
+use app::session::Session;
+use vv::builtins::Random;
+use vv::mesh::Value;
+
+const TEXTS: [&str; 5] = [
+    "void f(mesh& S) { forall v in S v$pos *= 0.5; }",
+    "param double w = 0.5 in [0, 1];\nvoid f(mesh& S) { forall v in S v$pos *= w; print w; }\nvoid g(mesh& S) { }",
+    "void f(mesh& S) { forall v in S v$pos *= ; }",
+    "void f(mesh& S) { vertex v = null; v$pos = v$pos; }",
+    "void start(mesh& S) { vertex v; add v to S; }",
+];
+
+/// Commands that neither open dialogs of the system nor write files.
+fn command(random: &mut Random) -> Command {
+    let mut below = |n: u64| random.bits() % n;
+    let text = |i: u64| -> Arc<str> { TEXTS[i as usize % TEXTS.len()].into() };
+    match below(30) {
+        0 | 1 => Command::Step,
+        2 => Command::Back,
+        3 => Command::Rewind,
+        4 => Command::End,
+        5 => Command::GoTo(below(4)),
+        6 => Command::Scrub(below(4)),
+        7 => Command::Play,
+        8 => Command::Stop,
+        9 | 10 => Command::Undo,
+        11 | 12 => Command::Redo,
+        13 => Command::UndoText,
+        14 => Command::RedoText,
+        15 | 16 => Command::Edit(text(below(5))),
+        17 => Command::Tune(text(below(5))),
+        18 => Command::SetParam("w".to_owned(), Value::Double(below(5) as f64 / 4.0)),
+        19 => Command::ResetParams,
+        20 => Command::ChooseRule(["f", "g", "none"][below(3) as usize].to_owned()),
+        21 => Command::UseMesh(MeshSource::BuiltIn(["cube.obj", "octahedron.obj"][below(2) as usize].to_owned())),
+        22 => Command::UseMesh(MeshSource::Empty),
+        23 => Command::OpenExample("loop.vv"),
+        24 => Command::NewProgram,
+        25 => Command::AnswerUnsaved(Answer::Discard),
+        26 => Command::CloseDialog,
+        27 => Command::Run,
+        28 => Command::SetReload([Reload::Typed, Reload::Saved, Reload::ByHand][below(3) as usize]),
+        _ => match below(8) {
+            0 => Command::Toggle(Panel::Timeline),
+            1 => Command::SetTheme(ThemeChoice::Dark),
+            2 => Command::Text(TextAction::Format),
+            3 => Command::Palette,
+            4 => Command::Smooth,
+            5 => Command::SetSpeed(60.0),
+            6 => Command::Fit,
+            _ => Command::Faces,
+        },
+    }
+}
+
+#[track_caller]
+fn in_order(session: &Session, after: &Command) {
+    let document = &session.document;
+    assert!(session.shown_generation() < 100, "{after:?}");
+    if let Some(frame) = session.frame() {
+        assert!(frame.statistics.valid, "{after:?}");
+    }
+    let Camera { pivot, distance, .. } = document.camera;
+    assert!(pivot.is_finite() && distance > 0.0, "{after:?}");
+    assert!(document.style.faces || document.style.edges, "{after:?}: nothing is left to see");
+    // Every command can say what it is, and whether it makes sense.
+    for command in MENUS.iter().flat_map(|m| m.groups).copied().flatten() {
+        let _ = (command.is_enabled(session), command.is_on(session));
+    }
+}
+
+/// Lets it come to rest.
+fn settle(session: &mut Session) {
+    let began = Instant::now();
+    while session.is_busy() || session.is_playing() {
+        session.poll();
+        assert!(began.elapsed() < Duration::from_secs(60), "never comes to rest");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn random_commands_leave_the_session_in_order() {
+    for seed in 0..4 {
+        let mut random = Random::new(seed, 0);
+        let mut session = Session::new(None, None, None, Arc::new(|| {})).unwrap();
+        for _ in 0..800 {
+            let command = command(&mut random);
+            session.apply(command.clone());
+            if random.bits().is_multiple_of(3) {
+                session.poll();
+            }
+            in_order(&session, &command);
+            // Generations of loop.vv grow fast.
+            if session.document.generation > 4 {
+                session.apply(Command::Rewind);
+            }
+        }
+        session.apply(Command::Stop);
+        settle(&mut session);
+        // All the way back and forth again: the same document.
+        let document = session.document.clone();
+        let mut count = 0;
+        while session.can_undo() {
+            session.apply(Command::Undo);
+            count += 1;
+        }
+        for _ in 0..count {
+            session.apply(Command::Redo);
+        }
+        let (now, then) = (&session.document, &document);
+        assert_eq!(now.program.text, then.program.text);
+        assert_eq!((&now.mesh, &now.rule, &now.params), (&then.mesh, &then.rule, &then.params));
+        assert_eq!(now.generation, then.generation);
+    }
+}
