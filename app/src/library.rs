@@ -34,6 +34,7 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "delaunay.vv", text: include_str!("../../assets/programs/delaunay.vv") },
     Shipped { name: "mountain.vv", text: include_str!("../../assets/programs/mountain.vv") },
     Shipped { name: "insert.vv", text: include_str!("../../assets/programs/insert.vv") },
+    Shipped { name: "split.vv", text: include_str!("../../assets/programs/split.vv") },
     Shipped { name: "ptq.vv", text: include_str!("../../assets/programs/ptq.vv") },
     Shipped { name: "ptt.vv", text: include_str!("../../assets/programs/ptt.vv") },
     Shipped { name: "pqq.vv", text: include_str!("../../assets/programs/pqq.vv") },
