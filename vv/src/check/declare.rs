@@ -374,10 +374,19 @@ impl<'a> Checker<'a> {
             self.report(Diagnostic::error(span, "`pos` is the position, which every vertex has"));
             return;
         }
-        if let Some(&(first, _)) = self.properties(element).names.get(name) {
-            self.report(
-                Diagnostic::error(span, format!("there is a property `{name}` already")).label(first, "the first one"),
-            );
+        if let Some(&(first, index)) = self.properties(element).names.get(name) {
+            // Files that know nothing of each other may need the same.
+            let known = index.and_then(|i| self.properties(element).declarations.get(i as usize)).map(|p| p.default);
+            if first.file != span.file && (known.is_none() || default.is_none() || known == default) {
+                return;
+            }
+            let error = Diagnostic::error(span, format!("there is a property `{name}` already"));
+            let error = error.label(first, "the first one");
+            self.report(if first.file == span.file {
+                error
+            } else {
+                error.hint("files may declare the same property, if its type and default are the same")
+            });
             return;
         }
         let properties = self.properties_mut(element);

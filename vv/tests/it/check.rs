@@ -33,6 +33,7 @@ fn compiled(text: &str) -> Compilation {
     compile("main.vv", text, &mut |_, path| match path {
         "insert.vv" => Ok(Included { name: path.to_owned(), text: INSERT.to_owned() }),
         "host.vv" => Ok(Included { name: "<vv>/host.vv".to_owned(), text: HOST.to_owned() }),
+        "marks.vv" => Ok(Included { name: path.to_owned(), text: "vertex { double mark = 1; };".to_owned() }),
         _ => {
             let shipped = format!("{}/../assets/programs/{path}", env!("CARGO_MANIFEST_DIR"));
             let text = std::fs::read_to_string(shipped).map_err(|_| format!("there is no file `{path}`"))?;

@@ -34,12 +34,10 @@ fn every_program_of_the_manual_prints_what_stands_under_it() {
     let programs = programs(include_str!("../../README.md"));
     assert!(programs.len() >= 4, "the manual has lost its programs");
     for (line, text, expected) in programs {
-        let mut include = |_: &str, path: &str| match path {
-            "insert.vv" => Ok(vv::Included {
-                name: path.to_owned(),
-                text: include_str!("../../../assets/programs/insert.vv").to_owned(),
-            }),
-            _ => Err("no such file".to_owned()),
+        let mut include = |_: &str, path: &str| {
+            let shipped = format!("{}/../assets/programs/{path}", env!("CARGO_MANIFEST_DIR"));
+            let text = std::fs::read_to_string(shipped).map_err(|e| e.to_string())?;
+            Ok(vv::Included { name: path.to_owned(), text })
         };
         let compiled = vv::compile("README.md", &text, &mut include);
         let form = vv::diagnostic::Form::Human { color: false };
@@ -55,4 +53,35 @@ fn every_program_of_the_manual_prints_what_stands_under_it() {
         }
         assert_eq!(printed.join("\n") + "\n", expected, "line {line}");
     }
+}
+
+fn shipped(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/../assets/programs/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// Lines that are neither empty nor comment: of a program, and with those of all that it includes.
+fn lines_of_code(name: &str) -> [usize; 2] {
+    let text = shipped(name);
+    let own = text.lines().filter(|l| !l.trim().is_empty() && !l.trim().starts_with("//")).count();
+    let included = text.lines().filter_map(|l| l.strip_prefix("#include \"")?.strip_suffix('"'));
+    [own, own + included.map(|file| lines_of_code(file)[1]).sum::<usize>()]
+}
+
+#[test]
+fn the_lengths_in_the_manual_are_those_of_the_programs() {
+    let manual = include_str!("../../README.md");
+    for (row, file) in [
+        ("Loop", "loop.vv"),
+        ("Catmull–Clark", "catmull-clark.vv"),
+        ("Doo–Sabin", "doo-sabin.vv"),
+        ("√3", "sqrt3.vv"),
+        ("modified butterfly", "butterfly.vv"),
+        ("quad/triangle", "quad-triangle.vv"),
+    ] {
+        let [own, all] = lines_of_code(file);
+        let expected = format!("| {row} | {own} | {all} |");
+        assert!(manual.contains(&expected), "the manual should say {expected}");
+    }
+    let [own, all] = lines_of_code("loop-creases.vv");
+    assert!(manual.contains(&format!("in {own} and {all} lines")), "{own} {all}");
 }

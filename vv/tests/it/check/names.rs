@@ -508,3 +508,24 @@ start { print used(3); }
 "#,
     );
 }
+
+#[test]
+fn files_may_declare_the_same_property() {
+    check(
+        r#"
+#include "marks.vv"
+vertex { double mark = 1; };
+edge { double mark = 1; };
+start { vertex v; v$mark = 2; add v to S; }
+"#,
+    );
+    check(
+        r#"
+#include "marks.vv"
+vertex { double mark = 2; int mark = 1; };
+//              ^^^^ error: there is a property `mark` already
+//                            ^^^^ error: there is a property `mark` already
+start { vertex v; v$mark = 2; add v to S; }
+"#,
+    );
+}
