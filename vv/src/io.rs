@@ -25,6 +25,8 @@ mod weld;
 use std::fmt;
 use std::io::Write;
 
+use rayon::prelude::*;
+
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::mesh::build::{self, BuildError};
 use crate::mesh::faces::Faces;
@@ -291,7 +293,11 @@ pub fn write(mesh: &Mesh, faces: &Faces, format: Format) -> Result<Vec<u8>, TooL
 
 /// Faces that are polygons: with three corners and more.
 fn polygons(faces: &Faces) -> impl Iterator<Item = &[Vertex]> {
-    faces.iter().filter(|face| face.len() > 2)
+    faces.iter().filter(|face| is_polygon(face))
+}
+
+fn is_polygon(face: &[Vertex]) -> bool {
+    face.len() > 2
 }
 
 /// The faces cut into triangles.
@@ -323,6 +329,33 @@ fn numbering(mesh: &Mesh) -> (Vec<usize>, Vec<Vertex>) {
         }
     }
     (numbers, members)
+}
+
+/// Appends the lines of `count` things to a text, made piece by piece on all threads: `push` appends that of a thing.
+fn push_lines(text: &mut Vec<u8>, count: usize, push: impl Fn(&mut Vec<u8>, usize) + Sync) {
+    const PIECE: usize = 1 << 14;
+    let lines = |piece: usize| {
+        let mut lines = Vec::new();
+        (piece * PIECE..count.min((piece + 1) * PIECE)).for_each(|i| push(&mut lines, i));
+        lines
+    };
+    let pieces: Vec<Vec<u8>> = (0..count.div_ceil(PIECE)).into_par_iter().map(lines).collect();
+    text.reserve_exact(pieces.iter().map(Vec::len).sum());
+    pieces.into_iter().for_each(|piece| text.extend(piece));
+}
+
+/// Appends the decimal digits of a number.
+fn push_integer(text: &mut Vec<u8>, mut n: usize) {
+    let mut digits = [b'0'; 20];
+    let mut start = digits.len();
+    loop {
+        start -= 1;
+        digits[start] = b'0' + (n % 10) as u8;
+        n /= 10;
+        if n == 0 {
+            return text.extend_from_slice(&digits[start..]);
+        }
+    }
 }
 
 /// The shortest decimal that reads back as `x`, with an exponent where there would be many zeros.

@@ -15,7 +15,9 @@ use glam::DVec3;
 
 use super::color::{self, Colors};
 use super::lines::{COMMENT, Lines, column, number, show, words};
-use super::{Place, ReadError, invalid, note, numbering, polygons, push_number, warning};
+use super::{
+    Place, ReadError, invalid, is_polygon, note, numbering, polygons, push_integer, push_lines, push_number, warning,
+};
 use crate::diagnostic::Diagnostic;
 use crate::mesh::build::Polygons;
 use crate::mesh::faces::Faces;
@@ -436,22 +438,27 @@ pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
     let mut text = Vec::new();
     // Writing to a vector does not fail.
     let _ = writeln!(text, "# {} vertices, {} faces", members.len(), polygons(faces).count());
-    for &v in &members {
+    push_lines(&mut text, members.len(), |text, i| {
+        let v = members[i];
         text.push(b'v');
         let color = colors.map(|column| color::of(mesh, column, v).to_array());
         for x in mesh.position(v).to_array().into_iter().chain(color.into_iter().flatten()) {
             text.push(b' ');
-            push_number(&mut text, x);
+            push_number(text, x);
         }
         text.push(b'\n');
-    }
-    for face in polygons(faces) {
-        text.push(b'f');
-        for corner in face {
-            let _ = write!(text, " {}", numbers[corner.index()] + 1);
+    });
+    push_lines(&mut text, faces.len(), |text, i| {
+        let face = faces.get(i);
+        if is_polygon(face) {
+            text.push(b'f');
+            for corner in face {
+                text.push(b' ');
+                push_integer(text, numbers[corner.index()] + 1);
+            }
+            text.push(b'\n');
         }
-        text.push(b'\n');
-    }
+    });
     tags::write(mesh, &members, &numbers, &mut text);
     text
 }

@@ -6,7 +6,9 @@ use glam::DVec3;
 
 use super::color::{self, Colors};
 use super::lines::{COMMENT, Words, integer, number, show};
-use super::{Place, ReadError, invalid, note, numbering, polygons, push_number, warning};
+use super::{
+    Place, ReadError, invalid, is_polygon, note, numbering, polygons, push_integer, push_lines, push_number, warning,
+};
 use crate::diagnostic::Diagnostic;
 use crate::mesh::Mesh;
 use crate::mesh::build::Polygons;
@@ -207,25 +209,30 @@ pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
     // Writing to a vector does not fail.
     let header = if colors.is_some() { "COFF" } else { "OFF" };
     let _ = writeln!(text, "{header}\n{} {} 0", members.len(), polygons(faces).count());
-    for v in members {
+    push_lines(&mut text, members.len(), |text, i| {
+        let v = members[i];
         for (k, x) in mesh.position(v).to_array().into_iter().enumerate() {
             if k > 0 {
                 text.push(b' ');
             }
-            push_number(&mut text, x);
+            push_number(text, x);
         }
         if let Some(column) = colors {
             let [r, g, b] = color::bytes(mesh, column, v);
             let _ = write!(text, " {r} {g} {b} 255");
         }
         text.push(b'\n');
-    }
-    for face in polygons(faces) {
-        let _ = write!(text, "{}", face.len());
-        for corner in face {
-            let _ = write!(text, " {}", numbers[corner.index()]);
+    });
+    push_lines(&mut text, faces.len(), |text, i| {
+        let face = faces.get(i);
+        if is_polygon(face) {
+            push_integer(text, face.len());
+            for corner in face {
+                text.push(b' ');
+                push_integer(text, numbers[corner.index()]);
+            }
+            text.push(b'\n');
         }
-        text.push(b'\n');
-    }
+    });
     text
 }

@@ -50,10 +50,15 @@ pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics,
     let vertices = survey.valences.total();
     let edges = (survey.entries - one_sided) / 2 + one_sided;
     let isolated = survey.valences.zeros();
-    let components = vertices - merges(mesh, &members, one_sided == 0, stop)?;
-    let boundary_loops = boundary_loops(mesh, &members, &survey, stop)?;
     let mut face_degrees = Histogram::default();
-    faces.iter().for_each(|face| face_degrees.count(face.len()));
+    let (merges, boundary_loops) = rayon::join(
+        || merges(mesh, &members, vertices, stop),
+        || {
+            faces.iter().for_each(|face| face_degrees.count(face.len()));
+            boundary_loops(mesh, &members, &survey, stop)
+        },
+    );
+    let (components, boundary_loops) = (vertices - merges?, boundary_loops?);
     let euler_characteristic = (vertices + faces.len() + isolated) as i64 - edges as i64;
     let handles = 2 * components as i64 - euler_characteristic - boundary_loops as i64;
     Ok(Statistics {
@@ -107,17 +112,25 @@ fn boundary_loops(mesh: &Mesh, members: &Members, survey: &Survey, stop: &Stop) 
     Ok(loops)
 }
 
-/// By how much neighbourhood brings the number of components below that of the vertices. Where neighbours `answer`, each
-/// pair is looked at once.
-fn merges(mesh: &Mesh, members: &Members, answer: bool, stop: &Stop) -> Result<usize, Stopped> {
+/// By how much neighbourhood brings the number of components below that of the `vertices` in the set.
+///
+/// Looks at the first entry of each ring, then at the second, and so on: as a rule all are one component long before the
+/// rings come to their ends.
+fn merges(mesh: &Mesh, members: &Members, vertices: usize, stop: &Stop) -> Result<usize, Stopped> {
+    const ROUNDS: usize = 4;
     let mut components = Components::new(mesh.vertex_count());
     let mut merged = 0;
-    for v in mesh.vertices().filter(|&v| members.contains(v)) {
-        stop.check()?;
-        for x in mesh.ring(v).vertices() {
-            if (x < v || !answer) && members.contains(x) {
-                merged += usize::from(components.join(v, x));
+    for round in 0..=ROUNDS {
+        for v in mesh.vertices().filter(|&v| members.contains(v)) {
+            stop.check()?;
+            let slots = mesh.ring(v).slots().get(round..).unwrap_or(&[]);
+            let looked_at = if round < ROUNDS { 1 } else { slots.len() };
+            for x in slots.iter().take(looked_at).flatten().filter(|&&x| members.contains(x)) {
+                merged += usize::from(components.join(v, *x));
             }
+        }
+        if merged + 1 >= vertices {
+            break;
         }
     }
     Ok(merged)

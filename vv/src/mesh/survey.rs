@@ -2,6 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 use super::members::Members;
 use super::{Mesh, Vertex};
 use crate::stop::{Stop, Stopped};
@@ -26,12 +30,28 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    /// Cost: linear.
+    /// Cost: linear, on all threads.
     pub(super) fn new(mesh: &Mesh, members: &Members, stop: &Stop) -> Result<Self, Stopped> {
+        let parts = in_pieces(mesh, stop, |range| Self::of(mesh, members, range))?;
+        Ok(parts.into_iter().fold(Self::default(), Self::and))
+    }
+
+    /// Of two ranges of vertices, the older ones first.
+    fn and(mut self, mut other: Self) -> Self {
+        self.entries += other.entries;
+        self.balance = self.balance.wrapping_add(other.balance);
+        self.torn.append(&mut other.torn);
+        self.with_gaps.append(&mut other.with_gaps);
+        self.not_finite.append(&mut other.not_finite);
+        self.valences.add(other.valences);
+        self
+    }
+
+    fn of(mesh: &Mesh, members: &Members, range: Range<usize>) -> Self {
         let mut survey = Self::default();
         let slots = mesh.slots();
-        for (v, (head, position)) in mesh.vertices().zip(mesh.heads().iter().zip(mesh.positions())) {
-            stop.check()?;
+        let arrays = mesh.heads()[range.clone()].iter().zip(&mesh.positions()[range.clone()]);
+        for (v, (head, position)) in range.filter_map(Vertex::from_index).zip(arrays) {
             if !members.contains(v) {
                 continue;
             }
@@ -59,8 +79,27 @@ impl Survey {
                 survey.not_finite.push(v);
             }
         }
-        Ok(survey)
+        survey
     }
+}
+
+/// Does something with all vertices of the universe, piece by piece, on all threads; the results are in order.
+pub(super) fn in_pieces<T: Send>(
+    mesh: &Mesh,
+    stop: &Stop,
+    work: impl Fn(Range<usize>) -> T + Sync,
+) -> Result<Vec<T>, Stopped> {
+    const PIECE: usize = 1 << 14;
+    let n = mesh.vertex_count();
+    let piece = |i: usize| {
+        stop.check()?;
+        Ok(work(i * PIECE..n.min((i + 1) * PIECE)))
+    };
+    stop.check()?;
+    if n <= PIECE {
+        return Ok(vec![piece(0)?]); // not worth to wake anybody
+    }
+    (0..n.div_ceil(PIECE)).into_par_iter().map(piece).collect()
 }
 
 /// The finalizer of splitmix64 over both numbers.
@@ -84,6 +123,11 @@ impl Histogram {
             Some(n) => *n += 1,
             None => *self.large.entry(x).or_insert(0) += 1,
         }
+    }
+
+    pub(super) fn add(&mut self, other: Self) {
+        self.small.iter_mut().zip(other.small).for_each(|(n, more)| *n += more);
+        other.large.into_iter().for_each(|(x, n)| *self.large.entry(x).or_insert(0) += n);
     }
 
     /// How often 0 occurs.

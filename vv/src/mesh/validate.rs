@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::finder::Finder;
 use super::members::Members;
-use super::survey::Survey;
+use super::survey::{Survey, in_pieces};
 use super::{Mesh, Vertex};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::stop::{Stop, Stopped};
@@ -88,12 +88,11 @@ pub(super) fn findings(mesh: &Mesh, members: &Members, survey: &Survey, stop: &S
     if let Members::Some(_) = members {
         findings.extend(mesh.set.iter().filter(|v| v.index() >= n).map(|vertex| Finding::Foreign { vertex }));
     }
-    for v in mesh.vertices() {
-        stop.check()?;
-        if !ring_is_sound(mesh.ring(v).slots(), v) {
-            findings.push(Finding::Ring { vertex: v });
-        }
-    }
+    let unsound = |range: std::ops::Range<usize>| {
+        let damaged = range.filter_map(Vertex::from_index).filter(|&v| !ring_is_sound(mesh.ring(v).slots(), v));
+        damaged.map(|vertex| Finding::Ring { vertex }).collect::<Vec<_>>()
+    };
+    findings.extend(in_pieces(mesh, stop, unsound)?.into_iter().flatten());
     for &v in &survey.torn {
         let outside = mesh.ring(v).vertices().filter(|&x| !members.contains(x));
         findings.extend(outside.map(|to| Finding::Outside { from: v, to }));
