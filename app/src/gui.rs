@@ -41,6 +41,7 @@ use crate::command::{Command, ThemeChoice};
 use crate::render;
 use crate::session::Session;
 use crate::store::Store;
+use crate::trace;
 
 /// Points of width that the viewport keeps, whatever stands beside it.
 const VIEWPORT: f32 = 170.0;
@@ -271,6 +272,7 @@ impl App {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        let _span = trace::span("window: polling");
         if let Some(pause) = self.session.poll() {
             ctx.request_repaint_after(pause);
         }
@@ -294,6 +296,7 @@ impl eframe::App for App {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let _span = trace::span("window: panels and picture");
         let mut commands = Vec::new();
         self.keep_focus(ui.ctx());
         if self.session.dialog.is_none() {
@@ -309,8 +312,12 @@ impl eframe::App for App {
             // What they change is seen in the next frame.
             ui.ctx().request_repaint();
         }
+        let changed = !commands.is_empty();
         for command in commands {
             self.session.apply(command);
+        }
+        if changed {
+            self.session.start(); // the worker need not wait for the next frame
         }
     }
 }

@@ -492,6 +492,11 @@ impl Session {
         Some(next.saturating_duration_since(now).max(Duration::from_millis(5)))
     }
 
+    /// Begins what commands have asked for, which [`Session::poll`] would do when it is called next.
+    pub fn start(&mut self) {
+        self.ask();
+    }
+
     /// The last good result.
     #[must_use]
     pub fn frame(&self) -> Option<&Arc<Frame>> {

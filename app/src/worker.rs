@@ -146,7 +146,7 @@ pub struct Timings {
     pub closing: f64,
     /// Finding faces and counting.
     pub faces: f64,
-    /// Preparing the picture.
+    /// Preparing the picture, at the same time as counting.
     pub scene: f64,
 }
 
@@ -203,7 +203,8 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Worker {
-    /// Starts the thread. `wake` is called, from that thread, when there is something new to see.
+    /// Starts the thread. `wake` is called, from other threads, when a request has come to its end, something was printed,
+    /// or more can be done with a picture. What happens on the way is for those who look now and then.
     ///
     /// # Errors
     /// When the system gives no thread.
@@ -248,6 +249,12 @@ impl Worker {
     pub fn console(&self) -> MutexGuard<'_, Console> {
         lock(&self.shared.console)
     }
+}
+
+/// Drops something large on another thread: to give back the memory of a million faces takes longer than a window has
+/// between two pictures.
+pub fn release<T: Send + 'static>(large: T) {
+    rayon::spawn(move || drop(large));
 }
 
 impl Drop for Worker {
@@ -321,6 +328,16 @@ mod tests {
         assert_eq!(frame.request.generation, 3);
         assert_eq!(frame.mesh.positions()[0].length(), 8.0);
         assert_eq!((frame.statistics.faces, frame.control_vertices), (8, 6));
+    }
+
+    #[test]
+    fn the_window_is_woken_for_the_picture_and_when_it_can_be_pointed_at() {
+        let (waker, awake) = mpsc::channel();
+        let mut worker = Worker::start(Limits::default(), 1 << 30, move || _ = waker.send(())).unwrap();
+        let frame = finish(&mut worker, request("void f(mesh& S) { }", 3)).unwrap();
+        (0..2).for_each(|_| awake.recv_timeout(Duration::from_secs(30)).unwrap());
+        assert!(frame.scene.is_indexed());
+        assert_eq!(awake.recv_timeout(Duration::from_millis(50)), Err(mpsc::RecvTimeoutError::Timeout));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use eframe::egui_wgpu::RenderState;
 use crate::camera::Camera;
 use crate::render::{RenderError, Renderer, Size, Target, Uploaded};
 use crate::scene::{Scene, Style};
+use crate::worker::release;
 
 /// Smooth outlines; software drivers take a third longer for them.
 const SAMPLES: u32 = 4;
@@ -102,7 +103,7 @@ impl Picture {
         self.uploading = None;
         self.drawn = None;
         match result {
-            Ok(uploaded) => self.uploaded = Some((Arc::clone(scene), uploaded)),
+            Ok(uploaded) => release(self.uploaded.replace((Arc::clone(scene), uploaded))),
             // Perhaps there is room without the one before.
             Err(_) if self.uploaded.take().is_some() => self.send(scene),
             Err(error) => {

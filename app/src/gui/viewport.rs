@@ -21,6 +21,7 @@ use crate::command::Command;
 use crate::render::{RenderError, Size};
 use crate::scene::{Pointer, Style, Theme};
 use crate::session::{Session, Stale};
+use crate::trace;
 use crate::worker::Frame;
 
 /// What the mouse does, for the cheat sheet.
@@ -72,6 +73,7 @@ impl Viewport {
         let style = Style { theme: theme_of(ui), ..session.document.style };
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
+        let _span = trace::span("window: viewport");
         if session.fit && !session.is_busy() && frame.scene.fits_at_once() {
             session.fit = false;
             camera = frame.scene.fit(camera, &style, size.aspect());
@@ -136,6 +138,7 @@ fn hands(ui: &Ui, response: &Response, rect: Rect, camera: Camera, frame: &Frame
     }
     let pointer = response.hover_pos()?;
     if response.double_clicked() {
+        let _span = trace::span("window: picking");
         let spread = camera.spread(f64::from(2.0 * NEAR / rect.height()));
         let pivot = frame.scene.pick(&Pointer { ray: camera.ray(place(pointer)), spread, opaque: true })?.point;
         // The eye stays where it is in the direction it looks; only what it turns around changes.

@@ -7,7 +7,7 @@ use vv::diagnostic::Severity;
 use vv::engine::FailureKind;
 
 use super::{GRACE, Running, Session, Stale};
-use crate::worker::{Event, Failed, Recipe, Report, Request};
+use crate::worker::{Event, Failed, Frame, Recipe, Report, Request, release};
 
 /// Playing pauses before a generation that would probably have more vertices.
 const PLAY_VERTICES: usize = 1_000_000;
@@ -148,10 +148,10 @@ impl Session {
             }
             Event::MeshRead { diagnostics } => self.problems.mesh_read(&request.recipe.mesh.name(), diagnostics),
             Event::Stepping(generation) => running.stepping = Some(generation),
-            Event::Preview(frame) => self.frame = Some(frame),
+            Event::Preview(frame) => self.show(frame),
             Event::Finished(frame) => {
                 self.problems.ran(&frame.warnings, &Arc::default());
-                self.frame = Some(frame);
+                self.show(frame);
                 self.stale = None;
                 self.running = None;
             }
@@ -160,6 +160,10 @@ impl Session {
                 self.failed(failed);
             }
         }
+    }
+
+    fn show(&mut self, frame: Arc<Frame>) {
+        release(self.frame.replace(frame));
     }
 
     fn failed(&mut self, failed: Failed) {

@@ -109,9 +109,13 @@ impl Bench {
             Event::Finished(frame) | Event::Preview(frame) => Some(Arc::clone(&frame.scene)),
             _ => None,
         };
+        // What is on its way is seen when the window looks; to draw it would delay what comes at its end.
+        let is_last = !matches!(event, Event::Compiled { .. } | Event::MeshRead { .. } | Event::Stepping(_));
         // Nobody listens any more: the window closes.
         let _ = self.reports.send(Report { ticket, event });
-        (self.wake)();
+        if is_last {
+            (self.wake)();
+        }
         // The picture comes first; what is needed to point at it comes after it, and no request waits for that.
         if let Some(scene) = scene.filter(|scene| !scene.is_indexed()) {
             let wake = Arc::clone(&self.wake);

@@ -95,13 +95,21 @@ pub(super) fn frame(
     let span = trace::span("faces");
     let faces = faces(&generation.mesh, stop)?;
     drop(span);
-    let span = trace::span("counting");
-    let statistics = statistics(&generation.mesh, &faces, stop)?;
-    drop(span);
     let faces_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
-    let _span = trace::span("scene");
-    let scene = Arc::new(Scene::new(&generation.mesh, &faces, control, stop)?);
+    let (statistics, scene) = rayon::join(
+        || {
+            let _span = trace::span("counting");
+            let statistics = statistics(&generation.mesh, &faces, stop);
+            (statistics, began.elapsed().as_secs_f64())
+        },
+        || {
+            let _span = trace::span("scene");
+            Scene::new(&generation.mesh, &faces, control, stop)
+        },
+    );
+    let (statistics, counting_s) = (statistics.0?, statistics.1);
+    let scene = Arc::new(scene?);
     Ok(Frame {
         request: request.clone(),
         mesh: generation.mesh.clone(),
@@ -113,7 +121,7 @@ pub(super) fn frame(
         timings: Timings {
             step: generation.step_s,
             closing: generation.closing_s,
-            faces: faces_s,
+            faces: faces_s + counting_s,
             scene: began.elapsed().as_secs_f64(),
         },
     })
