@@ -236,6 +236,34 @@ fn a_fan_of_a_hundred_thousand_triangles_takes_linear_time() {
 }
 
 #[test]
+fn what_is_found_does_not_depend_on_the_number_of_threads() {
+    let n = 140;
+    let positions = (0..n * n).map(|i| glam::dvec3(f64::from(i % n), f64::from(i / n), 0.0)).collect();
+    let mut polygons = Polygons::new(positions);
+    for i in (0..n * (n - 1)).filter(|i| i % n < n - 1) {
+        polygons.push([i, i + 1, i + n + 1, i + n], None).unwrap();
+    }
+    let mut mesh = build(polygons, true, &Stop::new()).unwrap().0;
+    for i in (0..n as usize * n as usize).step_by(501) {
+        let v = vertex(i + 1);
+        mesh.erase(mesh.ring(v).any(), v);
+        mesh.set_position(v, glam::DVec3::NAN);
+    }
+    let made = [1, 2, 5].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let found = all_faces(&mesh);
+            let texts = [Format::Obj, Format::Off].map(|format| write(&mesh, &found, format).unwrap());
+            let mut closed = mesh.clone();
+            let warnings = close(&mut closed, &Stop::new()).unwrap();
+            (texts, findings(&mesh), count(&mesh), format!("{warnings:?}"), ring_list(&closed))
+        })
+    });
+    assert_eq!(made[0].1.len(), 2 * 40);
+    assert!(made[0] == made[1] && made[0] == made[2]);
+}
+
+#[test]
 fn everything_stops() {
     let stop = Stop::new();
     let mut mesh = mesh(PYRAMID);
