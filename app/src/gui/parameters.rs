@@ -17,6 +17,9 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
     ui.add_space(4.0);
     ui.horizontal(|ui| {
+        // The narrowest panel has room for all three.
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().button_padding.x = 5.0;
         ui.label(RichText::new("Parameters").strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, session, commands, Command::ResetParams);

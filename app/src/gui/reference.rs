@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Color32, Context, FontFamily, FontId, Frame, Grid, Id, Margin, RichText, ScrollArea, Stroke, TextEdit, TextFormat,
-    TextStyle, Ui, Window, vec2,
+    Align, Color32, Context, FontFamily, FontId, Frame, Id, Layout, Margin, RichText, ScrollArea, Stroke, TextEdit,
+    TextFormat, TextStyle, Ui, Window, vec2,
 };
 
 use super::editor::color;
@@ -88,7 +88,7 @@ impl Reference {
                 let heading = ui.label(RichText::new(&section.title).heading().strong());
                 if self.wanted == Some(i) {
                     self.wanted = None;
-                    heading.scroll_to_me(Some(eframe::egui::Align::Min));
+                    heading.scroll_to_me(Some(Align::Min));
                 }
                 for (j, block) in section.blocks.iter().enumerate() {
                     show_block(ui, (i, j), block);
@@ -117,27 +117,36 @@ impl Section {
 
 fn show_block(ui: &mut Ui, id: (usize, usize), block: &Block) {
     match block {
-        Block::Paragraph(text) => drop(ui.label(inline(ui, text, ui.available_width()))),
+        Block::Paragraph(text) => drop(ui.label(inline(ui, text))),
         Block::Item(text) => {
             ui.horizontal_top(|ui| {
                 ui.add_space(4.0);
                 ui.label("•");
-                ui.label(inline(ui, text, ui.available_width()));
+                ui.vertical(|ui| ui.label(inline(ui, text)));
             });
         }
         Block::Table(rows) => {
             let columns = rows.iter().map(Vec::len).max().unwrap_or(1).max(1);
             // The first column holds code that does not break well.
-            let width = ui.available_width();
+            let width = ui.available_width() - 8.0;
             let room = |column: usize| if column == 0 { 0.42 * width } else { 0.54 * width / (columns - 1) as f32 };
-            Grid::new(("table", id)).striped(true).spacing(vec2(10.0, 5.0)).show(ui, |ui| {
-                for row in rows.iter().filter(|row| row.iter().any(|cell| !cell.is_empty())) {
-                    for (column, cell) in row.iter().enumerate() {
-                        ui.label(inline(ui, cell, room(column)));
-                    }
-                    ui.end_row();
-                }
-            });
+            for (i, row) in rows.iter().filter(|row| row.iter().any(|cell| !cell.is_empty())).enumerate() {
+                let fill = if i % 2 == 1 { ui.visuals().faint_bg_color } else { Color32::TRANSPARENT };
+                Frame::NONE.fill(fill).inner_margin(Margin::symmetric(4, 2)).show(ui, |ui| {
+                    ui.horizontal_top(|ui| {
+                        ui.spacing_mut().item_spacing.x = 0.0;
+                        for (column, cell) in row.iter().enumerate() {
+                            // In a row text does not break; in a column it does.
+                            let size = vec2(room(column), 0.0);
+                            ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
+                                ui.set_width(room(column) - 8.0);
+                                ui.label(inline(ui, cell));
+                            });
+                            ui.add_space(8.0);
+                        }
+                    });
+                });
+            }
         }
         Block::Code(text) | Block::Output(text) => {
             let is_code = matches!(block, Block::Code(_));
@@ -163,13 +172,12 @@ fn show_block(ui: &mut Ui, id: (usize, usize), block: &Block) {
 }
 
 /// A text with its marks turned into colours and slants.
-fn inline(ui: &Ui, text: &str, width: f32) -> LayoutJob {
+fn inline(ui: &Ui, text: &str) -> LayoutJob {
     let body = TextStyle::Body.resolve(ui.style());
     let visuals = ui.visuals();
     let mono = FontId::new(body.size - 0.5, FontFamily::Monospace);
     let format = |font: &FontId, color: Color32| TextFormat::simple(font.clone(), color);
     let mut job = LayoutJob::default();
-    job.wrap.max_width = width;
     for (kind, part) in spans(text) {
         let format = match kind {
             Kind::Plain => format(&body, visuals.text_color()),

@@ -170,6 +170,8 @@ fn playing_goes_on_until_stopped() {
 #[test]
 fn an_error_marks_the_last_good_result_as_stale_and_repairing_clears_it() {
     let mut window = octahedron();
+    window.state_mut().apply(Command::OpenExample("paper-loop.vv"));
+    settle(&mut window);
     press(&mut window, Key::Num1);
     let text = window.state().session().document.program.text.to_string();
     write(&mut window, &text.replace("merge S with NV", "merge S wiht NV"));
