@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Mutation, Output, OutputClosed, Settings};
 use vv::io::{Format, ReadOptions, read};
-use vv::ir::{FunctionId, Program};
+use vv::ir::{FunctionId, GlobalId, Param, Program};
 use vv::mesh::close::close;
 use vv::mesh::{Mesh, Value};
 use vv::stop::{Stop, Stopped};
@@ -128,7 +128,7 @@ fn assets(folder: &str, extension: &str) -> Vec<PathBuf> {
     paths
 }
 
-fn compile_file(path: &Path) -> Arc<Program> {
+pub fn compile_file(path: &Path) -> Arc<Program> {
     let text = std::fs::read_to_string(path).unwrap();
     let folder = path.parent().unwrap().to_owned();
     let mut include = |_: &str, name: &str| {
@@ -159,7 +159,7 @@ fn the_assets_run_the_same() {
                 if mesh.vertex_count() > 1000 {
                     break;
                 }
-                let settings = Settings { seed: 7, ..Settings::default() };
+                let settings = Settings { seed: 7, params: least(&program), ..Settings::default() };
                 match compare(&program, &native, function, &mesh, generation, &settings) {
                     Ok((Ok(new), _)) => {
                         mesh = new;
@@ -171,6 +171,12 @@ fn the_assets_run_the_same() {
             }
         }
     }
+}
+
+/// Each `param int` at the low end of its range.
+fn least(program: &Program) -> Vec<(GlobalId, Value)> {
+    let low = |param: &Param| param.range.map(|(low, _)| low).filter(|low| matches!(low, Value::Int(_)));
+    program.params().filter_map(|(id, _, param)| Some((id, low(param)?))).collect()
 }
 
 /// `VV_GENERATED` sets how many.

@@ -9,6 +9,7 @@
 
 mod engines;
 mod files;
+mod gallery;
 mod manual;
 mod mesh;
 mod oracles;
