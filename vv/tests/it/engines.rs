@@ -437,6 +437,97 @@ void step(mesh& S) {
 }
 ";
 
+/// What compiled code knows of new vertices and spares itself to ask: the first end in an error, the others do not.
+/// `a`, `b` and `c` are a face of an octahedron.
+const NEW: [&[&str]; 2] = [
+    &[
+        "vertex x; replace a with x in b; replace c with x in b;",
+        "vertex x; splice x after a in b; splice x after c in b;",
+        "vertex x; if (a < c) replace a with x in b; replace c with x in b;",
+        "vertex x; if (a > c) print a; else replace a with x in b; replace c with x in b;",
+        "vertex x; forall q in a splice x after any in b in b;",
+        "vertex x; for (int i = 0; i < 2; i++) { if (i > 0) replace c with x in b; replace a with x in b; }",
+        "vertex x; while (!(is x in b && valence x)) { make {a} nb_of x; replace any in b with x in b; \
+         if (is a in x) replace nextto x in b with x in b; }",
+        "vertex x, y; if (a < c) y = x; replace a with y in b; replace c with x in b;",
+        "vertex x, y = a < c ? x : null; replace a with y in b; replace c with x in b;",
+        "vertex x; a$mate = x; replace a with a$mate in b; replace c with x in b;",
+        "vertex x; replace a with x in b; vertex y = prevto c in b; replace c with y in b;",
+        "vertex x; put(x, b, 2); replace c with x in b;",
+        "vertex x; put(x, b, 0); replace c with x in b;",
+        "vertex x; ring r; add x to r; add c to r; make r nb_of b; replace c with x in b;",
+        "vertex x, p = a < c ? b : c; replace a with x in p; replace c with x in b;",
+        "vertex x, y; replace a with y in b; replace c with x in b; replace y with x in b;",
+        "vertex x; make {x, a} nb_of b; replace a with x in b;",
+        "vertex x; make {a, a} nb_of x;",
+        "vertex x, y = a; make {a, y} nb_of x;",
+        "vertex x, y = prevto b in a; make {y, prevto b in a} nb_of x;",
+        "vertex x; make {a, x} nb_of x;",
+        "vertex x; make {a, b, c, any in a, nextto any in a in a} nb_of x;",
+        "vertex x; make {a, b, c, x, any in b} nb_of x;",
+        "vertex x; make {a, b, c, a} nb_of x;",
+        "replace a with b in b;",
+        "replace a with any in b in b;",
+        "forall q in b replace q with b in b;",
+        "vertex x; make {b} nb_of x; replace b with x in x;",
+        "vertex x, y = a > c ? b : x; make {c, b} nb_of y; replace b with x in y;",
+    ],
+    &[
+        "vertex x; make {a, b} nb_of x; replace a with x in b; replace b with x in a; print any in x, nextto b in x;",
+        "vertex x; make {a, b} nb_of x; make {c} nb_of x; make {b, c, a} nb_of x; erase c from x; print any in x;",
+        "vertex x; erase a from x; make {a, b} nb_of x; erase a from x; make {c, a, b} nb_of x; print nextto c in x;",
+        "vertex x; make {} nb_of x; make {a} nb_of x; print nextto a in x, prevto b in x;",
+        "vertex x, y = a < c ? x : a; make {a} nb_of y; make {b, c} nb_of x; print any in x, nextto b in x;",
+        "vertex x, y; make {x, a} nb_of y; make {y, a} nb_of x; replace a with b in x; replace a with x in b; print x, y;",
+        "for (int i = 0; i < 3; i++) { vertex x; make {b, a} nb_of x; splice x after a in b; erase b from x; }",
+        "vertex x; replace a with x in b; erase x from b; splice x before c in b; print any in b, nextto c in b;",
+        "vertex x; put(x, b, 2); print is x in b;",
+        "vertex x; make {a, nextto x in b} nb_of x; print valence x, gaps x;",
+        "vertex x; make {a, b, c, nextto x in a} nb_of x; print valence x, gaps x;",
+        "vertex x, y; make {a, b, c, y, nextto x in a, any in x} nb_of x; print valence x, gaps x;",
+    ],
+];
+
+/// A program around one of them.
+fn with_new(body: &str) -> String {
+    format!(
+        "vertex {{ vertex mate; }};\n{OCTAHEDRON}
+void put(vertex x, vertex v, int n) {{
+  if (n > 0) {{ put(x, v, n - 1); return; }}
+  splice x after any in v in v;
+}}
+void step(mesh& S) {{
+  vertex a, b, c;
+  forall v in S {{ a = v; break; }}
+  b = any in a; c = nextto a in b;
+  {body}
+  forall v in S {{ print v; forall q in v print q; }}
+}}
+"
+    )
+}
+
+#[test]
+fn what_is_known_of_new_vertices_is_true() {
+    for (body, fails) in NEW.iter().zip([true, false]).flat_map(|(l, fails)| l.iter().map(move |b| (b, fails))) {
+        let text = with_new(body);
+        let program = compile_text(&text);
+        let native = Machine::new(Arc::clone(&program), Engine::Native);
+        assert_eq!(native.refusal(), None);
+        let settings = Settings::default();
+        let start = compare(&program, &native, program.start.unwrap(), &Mesh::new(), 0, &settings).unwrap();
+        let step = compare(&program, &native, program.default_rule().unwrap(), &start.0.unwrap(), 1, &settings);
+        let (ended, _) = step.unwrap_or_else(|difference| panic!("{body}\n{difference}"));
+        assert_eq!(ended.is_err(), fails, "{body}\n{ended:?}");
+    }
+}
+
+#[track_caller]
+fn compile_text(text: &str) -> Arc<Program> {
+    let compilation = vv::compile("test.vv", text, &mut |_: &str, _: &str| Err(String::new()));
+    compilation.program.unwrap_or_else(|| panic!("{text}\n{:#?}", compilation.diagnostics))
+}
+
 /// A hexagon around a vertex, open, and its program's text.
 fn everything() -> String {
     format!("{}{}", wheel(6), EVERYTHING.replace("(bool)1, ", ""))
@@ -453,9 +544,7 @@ fn everything_runs_the_same() {
 /// Both engines give the same for `start` and a step, and that is no error: a program that fails early compares little.
 #[track_caller]
 fn check_to_the_end(text: &str) {
-    let include = &mut |_: &str, _: &str| Err(String::new());
-    let compilation = vv::compile("test.vv", text, include);
-    let program = compilation.program.unwrap_or_else(|| panic!("{:#?}", compilation.diagnostics));
+    let program = compile_text(text);
     let native = Machine::new(Arc::clone(&program), Engine::Native);
     assert_eq!(native.refusal(), None);
     let settings = Settings::default();
@@ -475,6 +564,7 @@ fn planted_mistakes_are_found() {
                 && compare_generated(&format!("{OCTAHEDRON}{EDGES}"), mutation).is_ok()
                 && compare_generated(&format!("{OCTAHEDRON}{RINGS}"), mutation).is_ok()
                 && compare_generated(&format!("{OCTAHEDRON}{APPENDED}"), mutation).is_ok()
+                && NEW.concat().iter().all(|body| compare_generated(&with_new(body), mutation).is_ok())
                 && (0..40).all(|seed| compare_generated(&generate(seed), mutation).is_ok())
         })
         .collect();

@@ -45,6 +45,8 @@ pub(super) struct Context {
     pub(super) site: u64,
     /// Operands and results of runtime functions, results of compiled ones.
     pub(super) value: [u64; 12],
+    /// A ring of nulls around what is in no ring. Nobody writes it.
+    pub(super) nothing: [u32; 4],
 }
 
 /// A set whose members compiled code may push.
@@ -184,6 +186,7 @@ offsets! {
     WALK_COUNT walk_count
     SITE site
     VALUE value
+    NOTHING nothing
 }
 
 pub(super) const HEAD_SIZE: i64 = size_of::<Head>() as i64;

@@ -88,6 +88,9 @@ impl<'p> Translator<'_, 'p> {
         }
         if effects.edits {
             self.known.forget_rings(false);
+            if !self.mutated(Mutation::ForgetsWhatCallsPut) {
+                self.known.forget_new();
+            }
         }
         if effects.synchronizes {
             self.known.forget_rings(true);

@@ -1,12 +1,10 @@
 //! Edits of rings.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{
-    Block, ConstantData, Endianness, InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Value, types,
-};
+use cranelift_codegen::ir::{Block, ConstantData, InstBuilder, StackSlotData, StackSlotKind, Value, types};
 
 use super::known::{Bounds, Key};
-use super::ring::{Source, unaligned};
+use super::ring::{Source, little_endian, unaligned};
 use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
@@ -65,7 +63,7 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(slow);
         let n = u32::try_from(list.len()).map_err(|_| super::wrong_type())?;
         let slot = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * n.max(1), 2));
-        for (i, x) in list.into_iter().enumerate() {
+        for (i, &x) in list.iter().enumerate() {
             let x = self.or_null(x);
             self.b.ins().stack_store(types::I64, x, slot, 4 * i as i32);
         }
@@ -75,6 +73,10 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().jump(done, &[]);
         self.continue_in(done);
         self.known.forget_rings(false);
+        self.known.made(v);
+        for &x in &list {
+            self.note_put(x, v);
+        }
         Ok(())
     }
 
@@ -97,6 +99,8 @@ impl<'p> Translator<'_, 'p> {
             }
             t.b.ins().jump(slow, &[]);
         });
+        self.known.made(v);
+        self.known.put_any(v);
         Ok(())
     }
 
@@ -165,30 +169,29 @@ impl<'p> Translator<'_, 'p> {
         let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
         self.leave_if(edge_values, slow);
         let lanes = if k > 3 { self.packed(items, v) } else { Vec::new() };
-        let bad = if k > 3 { self.not_a_ring_of_lanes(&lanes, items) } else { self.not_a_ring(items, v) };
-        self.leave_if(bad, slow);
-        let head = self.head(v, false);
-        let heads = self.regions.heads;
-        let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
-        let offset = self.b.ins().load(types::I32, heads, head, context::HEAD_OFFSET);
-        let kept = self.slot_address(offset, false);
-        let (store, start) = self.block_with(&[types::I64]);
-        let fresh = self.b.create_block();
-        let fits = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThanOrEqual, capacity, k as i64);
-        self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
-        self.continue_in(fresh);
-        self.leave_if(capacity, slow);
-        let room = (k as i64).max(i64::from(self.unit.facts.fresh_capacity));
-        let capacity = self.b.ins().iconst(types::I32, room);
-        let taken = self.take_slots(head, capacity, slow);
-        let slots = self.regions.slots;
-        let zero = self.int32(0);
-        for i in k as i64..room {
-            self.b.ins().store(slots, zero, taken, 4 * i as i32);
+        let bad = if k > 3 { Some(self.not_a_ring_of_lanes(&lanes, items)) } else { self.not_a_ring(items, v) };
+        if let Some(bad) = bad {
+            self.leave_if(bad, slow);
         }
-        self.jump_with(store, &[taken]);
-        self.continue_in(store);
-        let start = start[0];
+        let head = self.head(v, false);
+        let (heads, slots) = (self.regions.heads, self.regions.slots);
+        let start = if self.known.is_bare(v) {
+            self.take_slots_for(k, head, slow)
+        } else {
+            let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+            let offset = self.b.ins().load(types::I32, heads, head, context::HEAD_OFFSET);
+            let kept = self.slot_address(offset, false);
+            let (store, start) = self.block_with(&[types::I64]);
+            let fresh = self.b.create_block();
+            let fits = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThanOrEqual, capacity, k as i64);
+            self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
+            self.continue_in(fresh);
+            self.leave_if(capacity, slow);
+            let taken = self.take_slots_for(k, head, slow);
+            self.jump_with(store, &[taken]);
+            self.continue_in(store);
+            start[0]
+        };
         let whole = lanes.len().min(k / 4);
         for (i, &four) in lanes[..whole].iter().enumerate() {
             self.b.ins().store(unaligned(slots), four, start, 16 * i as i32);
@@ -200,25 +203,40 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().store(heads, len, head, context::HEAD_LEN);
     }
 
-    /// Not zero where a few items are no ring of `v`: null, `v` itself, one twice.
-    fn not_a_ring(&mut self, items: &[Value], v: Value) -> Value {
-        let mut bad = self.b.ins().iconst(types::I8, 0);
-        for (i, &x) in items.iter().enumerate() {
-            if !self.known.holds(Key::NotNull(x)) {
-                let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
-                bad = self.b.ins().bor(bad, null);
-            }
-            for &y in items[..i].iter().chain(std::iter::once(&v)) {
-                let same = self.b.ins().icmp(IntCC::Equal, x, y);
-                bad = self.b.ins().bor(bad, same);
-            }
+    /// Takes slots for a ring of `k`, with gaps in those that it leaves.
+    fn take_slots_for(&mut self, k: usize, head: Value, slow: Block) -> Value {
+        let room = (k as i64).max(i64::from(self.unit.facts.fresh_capacity));
+        let capacity = self.b.ins().iconst(types::I32, room);
+        let start = self.take_slots(head, capacity, slow);
+        let [one, two] = [types::I32, types::I64].map(|ty| self.b.ins().iconst(ty, 0));
+        let mut i = k as i64;
+        while i < room {
+            let (gaps, n) = if i + 1 < room { (two, 2) } else { (one, 1) };
+            self.b.ins().store(unaligned(self.regions.slots), gaps, start, 4 * i as i32);
+            i += n;
         }
-        bad
+        start
     }
 
-    /// Items by fours; after the last `v`, and then lanes that differ from every vertex and from each other.
+    /// Not zero where a few items are no ring of `v`: null, `v` itself, one twice. `None` if they are sure to be one.
+    fn not_a_ring(&mut self, items: &[Value], v: Value) -> Option<Value> {
+        let mut bad = Vec::new();
+        for (i, &x) in items.iter().enumerate() {
+            if !self.known.holds(Key::NotNull(x)) {
+                bad.push(self.b.ins().icmp_imm_s(IntCC::Equal, x, 0));
+            }
+            for &y in items[..i].iter().chain(std::iter::once(&v)) {
+                if !self.known.differ(x, y) {
+                    bad.push(self.b.ins().icmp(IntCC::Equal, x, y));
+                }
+            }
+        }
+        bad.into_iter().reduce(|a, b| self.b.ins().bor(a, b))
+    }
+
+    /// Items by fours; after the last `v`, null, and then lanes that differ from every vertex and from each other.
     fn packed(&mut self, items: &[Value], v: Value) -> Vec<Value> {
-        let padding = (1..4u32).map(|i| !i).map(|none| self.int32(none)).collect::<Vec<_>>();
+        let padding = [0, !1, !2].map(|none| self.int32(none));
         let all: Vec<Value> = items.iter().copied().chain([v]).chain(padding).collect();
         let fours = items.len() / 4 + 1;
         (0..fours)
@@ -233,7 +251,8 @@ impl<'p> Translator<'_, 'p> {
     /// [`Translator::not_a_ring`], four comparisons at a time.
     fn not_a_ring_of_lanes(&mut self, lanes: &[Value], items: &[Value]) -> Value {
         let mut pairs = self.pairs_of_lanes(lanes);
-        if !items.iter().all(|&x| self.known.holds(Key::NotNull(x))) {
+        let has_null = items.len() + 1 < 4 * lanes.len();
+        if !has_null && !items.iter().all(|&x| self.known.holds(Key::NotNull(x))) {
             let zero = self.int32(0);
             let nulls = self.b.ins().splat(types::I32X4, zero);
             pairs.extend(lanes.iter().map(|&x| (x, nulls)));
@@ -284,30 +303,26 @@ impl<'p> Translator<'_, 'p> {
                 t.b.ins().jump(ways.slow, &[]);
             }
         });
+        self.note_put(x, v);
         Ok(())
     }
 
     /// Puts a vertex in the place of another.
     fn replace_in_place(&mut self, a: Value, x: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
+        let bytes = self.bytes_of(len);
         self.by_width(len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
-            let here = t.matches(&lanes, a, len);
-            let there = t.matches(&lanes, x, len);
-            let next = t.b.create_block();
-            t.b.ins().brif(here, next, &[], done, &[]);
-            t.continue_in(next);
-            let bad = t.may_not_enter(x, there, v);
-            t.leave_if(bad, slow);
+            let at = t.place_to_edit(&lanes, a, bytes, done);
+            t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
             if !t.mutated(Mutation::ReplacesNothing) {
                 // Stores as wide as the loads that will follow, for narrow ones would hold those up.
-                let [old, new, end] = [a, x, len].map(|x| t.b.ins().splat(types::I32X4, x));
+                let at = t.b.ins().ireduce(types::I32, at);
+                let [place, new] = [at, x].map(|x| t.b.ins().splat(types::I32X4, x));
                 for (k, lane) in lanes.into_iter().enumerate() {
-                    let numbers = t.lane_numbers(4 * k as u32);
-                    let within = t.b.ins().icmp(IntCC::SignedLessThan, numbers, end);
-                    let equal = t.b.ins().icmp(IntCC::Equal, lane, old);
-                    let place = t.b.ins().band(equal, within);
-                    let result = t.b.ins().bitselect(place, new, lane);
+                    let offsets = t.lane_offsets(4 * k as u32);
+                    let here = t.b.ins().icmp(IntCC::Equal, offsets, place);
+                    let result = t.b.ins().bitselect(here, new, lane);
                     t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
                 }
             }
@@ -315,16 +330,30 @@ impl<'p> Translator<'_, 'p> {
         });
     }
 
-    /// Not zero where `x` is null, stands in the ring already (bits `there`), or is `v` itself.
-    fn may_not_enter(&mut self, x: Value, there: Value, v: Value) -> Value {
-        let twice = self.b.ins().icmp_imm_s(IntCC::NotEqual, there, 0);
-        let itself = self.b.ins().icmp(IntCC::Equal, x, v);
-        let bad = self.b.ins().bor(twice, itself);
-        if self.known.holds(Key::NotNull(x)) {
-            return bad;
+    /// Where `a` stands in a ring of so many bytes, which fills the first of the lanes; on to `done` if it does not.
+    fn place_to_edit(&mut self, lanes: &[Value], a: Value, bytes: Value, done: Block) -> Value {
+        let at = self.first_match(lanes, a);
+        let absent = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, at, bytes);
+        self.leave_if(absent, done);
+        at
+    }
+
+    /// Goes to `slow` where `x` is null, stands in the ring of `v` already, or is `v` itself.
+    fn leave_unless_it_may_enter(&mut self, lanes: &[Value], x: Value, bytes: Value, v: Value, slow: Block) {
+        let mut bad = Vec::new();
+        if !self.known.is_absent(x, v) {
+            let at = self.first_match(lanes, x);
+            bad.push(self.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes));
         }
-        let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
-        self.b.ins().bor(bad, null)
+        if !self.known.differ(x, v) {
+            bad.push(self.b.ins().icmp(IntCC::Equal, x, v));
+        }
+        if !self.known.holds(Key::NotNull(x)) {
+            bad.push(self.b.ins().icmp_imm_s(IntCC::Equal, x, 0));
+        }
+        if let Some(bad) = bad.into_iter().reduce(|a, b| self.b.ins().bor(a, b)) {
+            self.leave_if(bad, slow);
+        }
     }
 
     pub(super) fn splice(&mut self, item: &'p Item, side: Side, anchor: &'p Item, ring: &'p Ring) -> Translated<()> {
@@ -346,26 +375,24 @@ impl<'p> Translator<'_, 'p> {
                 t.b.ins().jump(ways.slow, &[]);
             }
         });
+        self.note_put(x, v);
         Ok(())
     }
 
     /// Splices a vertex into a ring without gaps, which moves to twice the room if it has none left.
     fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
+        let bytes = self.bytes_of(len);
         self.by_width(len, 1, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
-            let here = t.matches(&lanes, a, len);
-            let there = t.matches(&lanes, x, len);
-            let next = t.b.create_block();
-            t.b.ins().brif(here, next, &[], done, &[]);
-            t.continue_in(next);
+            let at = t.place_to_edit(&lanes, a, bytes, done);
+            t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
             let head = t.head(v, false);
             let heads = t.regions.heads;
             let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
-            let bad = t.may_not_enter(x, there, v);
-            let bad = t.or_gap_or_edge_values(bad, v);
+            let bad = t.gap_or_edge_values(v);
             t.leave_if(bad, slow);
-            let index = t.b.ins().ctz(here);
+            let index = t.index_of(at);
             let after = (side == Side::After) != t.mutated(Mutation::SplicesOnTheOtherSide);
             let at = match if after { Side::After } else { Side::Before } {
                 Side::After => t.b.ins().iadd_imm_s(index, 1),
@@ -425,7 +452,7 @@ impl<'p> Translator<'_, 'p> {
     /// result is where it lies; up to [`context::PADDING`] slots behind it may be written too.
     fn take_slots(&mut self, head: Value, room: Value, slow: Block) -> Value {
         let used = self.load_context(types::I64, context::SLOT_LEN);
-        let wide = self.b.ins().uextend(types::I64, room);
+        let wide = self.wide(room);
         let end = self.b.ins().iadd(used, wide);
         let limit = self.load_context(types::I64, context::SLOT_CAPACITY);
         let full = self.b.ins().icmp(IntCC::UnsignedGreaterThan, end, limit);
@@ -438,17 +465,31 @@ impl<'p> Translator<'_, 'p> {
         self.slot_address(offset, false)
     }
 
-    fn or_gap_or_edge_values(&mut self, bad: Value, v: Value) -> Value {
+    fn gap_or_edge_values(&mut self, v: Value) -> Value {
         let gap = self.has_gap(v, false);
-        let bad = self.b.ins().bor(bad, gap);
         let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
         let edge_values = self.b.ins().ireduce(types::I8, edge_values);
-        self.b.ins().bor(bad, edge_values)
+        self.b.ins().bor(gap, edge_values)
+    }
+
+    /// The index, i32, of what stands so many bytes behind the start.
+    fn index_of(&mut self, at: Value) -> Value {
+        let index = self.b.ins().ushr_imm_u(at, 2);
+        self.b.ins().ireduce(types::I32, index)
     }
 
     /// `first`, `first + 1`, …
     fn lane_numbers(&mut self, first: u32) -> Value {
-        let bytes: Vec<u8> = (first..first + 4).flat_map(u32::to_le_bytes).collect();
+        self.lane_constants((first..first + 4).collect())
+    }
+
+    /// How many bytes stand before each of the slots from `first` on.
+    fn lane_offsets(&mut self, first: u32) -> Value {
+        self.lane_constants((first..first + 4).map(|i| 4 * i).collect())
+    }
+
+    fn lane_constants(&mut self, lanes: Vec<u32>) -> Value {
+        let bytes: Vec<u8> = lanes.into_iter().flat_map(u32::to_le_bytes).collect();
         let constant = self.b.func.dfg.constants.insert(ConstantData::from(bytes));
         self.b.ins().vconst(types::I32X4, constant)
     }
@@ -484,16 +525,13 @@ impl<'p> Translator<'_, 'p> {
     /// Takes a vertex out of a ring without gaps.
     fn erase_in_place(&mut self, x: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
+        let bytes = self.bytes_of(len);
         self.by_width(len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
-            let here = t.matches(&lanes, x, len);
-            let next = t.b.create_block();
-            t.b.ins().brif(here, next, &[], done, &[]);
-            t.continue_in(next);
-            let zero = t.b.ins().iconst(types::I8, 0);
-            let bad = t.or_gap_or_edge_values(zero, v);
+            let at = t.place_to_edit(&lanes, x, bytes, done);
+            let bad = t.gap_or_edge_values(v);
             t.leave_if(bad, slow);
-            let index = t.b.ins().ctz(here);
+            let index = t.index_of(at);
             // Lanes from `index` on take what stands behind them; those behind the ring get back what they hold.
             let behind = t.b.ins().iadd_imm_s(start, 4);
             let shifted = t.lanes(behind, width, flags);
@@ -517,6 +555,12 @@ impl<'p> Translator<'_, 'p> {
         });
     }
 
+    fn note_put(&mut self, x: Option<Value>, v: Value) {
+        if !self.mutated(Mutation::ForgetsWhatWasPut) {
+            self.known.put(x, v);
+        }
+    }
+
     /// Edits a ring in line where `in_line` finds it can, else in the runtime.
     fn edit(&mut self, symbol: Symbol, operands: &[Value], in_line: impl FnOnce(&mut Self, Ways)) {
         let ways = Ways { slow: self.b.create_block(), done: self.b.create_block() };
@@ -528,8 +572,4 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(ways.done);
         self.known.forget_rings(false);
     }
-}
-
-fn little_endian() -> MemFlagsData {
-    MemFlagsData::new().with_endianness(Endianness::Little)
 }

@@ -86,7 +86,9 @@ impl<'p> Translator<'_, 'p> {
             ExprKind::Any(ring) => {
                 let source = self.source(ring)?;
                 let bounds = self.bounds_of(source)?;
-                Ok(Val::One(self.any(bounds)))
+                let first = self.any(bounds);
+                self.learn_that_it_stands_in(first, source);
+                Ok(Val::One(first))
             }
             ExprKind::Next(item, ring) => self.look_up(item, ring, true),
             ExprKind::Previous(item, ring) => self.look_up(item, ring, false),
@@ -97,8 +99,7 @@ impl<'p> Translator<'_, 'p> {
                     return Ok(Val::One(self.has_gap(v, old)));
                 }
                 let found = self.find(x, source)?;
-                let certain = self.b.ins().iconst(types::I8, 1);
-                let is = found.found.unwrap_or(certain);
+                let is = self.is_found(found);
                 Ok(Val::One(self.inverted_if(is, Mutation::IsInRingInverted)))
             }
             ExprKind::IsInSet(vertex, set) => self.is_in_set(vertex, set),
@@ -144,7 +145,16 @@ impl<'p> Translator<'_, 'p> {
             *old &= !self.mutated(Mutation::OldRingIsNew);
         }
         let found = self.find(x, source)?;
-        Ok(Val::One(self.neighbour(found, forward)))
+        let y = self.neighbour(found, forward);
+        self.learn_that_it_stands_in(y, source);
+        Ok(Val::One(y))
+    }
+
+    /// What a ring holds, or null, is not the ring's vertex.
+    fn learn_that_it_stands_in(&mut self, x: Value, source: Source) {
+        if let Source::Of { v, .. } = source {
+            self.known.learn_that_differ(x, v);
+        }
     }
 
     fn short_circuit(&mut self, a: &'p Expr, b: &'p Expr, decides: bool) -> Translated<Val> {

@@ -19,13 +19,14 @@ pub(super) struct Bounds {
 /// Where something stands in a ring.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
+    /// Address of the first slot, [`NOTHING`](crate::engine::native::context::NOTHING) if it is not there.
     pub(super) start: Value,
     /// Bytes of the ring, i64.
     pub(super) bytes: Value,
-    /// Bytes from the start to the slot, i64; 0 if it is not there.
+    /// Bytes from the start to the slot, i64.
     pub(super) at: Value,
-    /// Whether it is there; `None` if that is certain.
-    pub(super) found: Option<Value>,
+    /// It is there.
+    pub(super) certain: bool,
     /// The kind of memory.
     pub(super) flags: MemFlagsData,
 }
@@ -34,6 +35,10 @@ pub(super) struct Found {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Key {
     NotNull(Value),
+    /// The same number in 64 bits.
+    Wide(Value),
+    /// Two vertices, the smaller value first.
+    Differ(Value, Value),
     /// A vertex has an old value.
     Held(Value),
     Bounds {
@@ -60,14 +65,28 @@ pub(super) enum Fact {
     Found(Found),
     /// An address.
     At(Value),
+    Is(Value),
+}
+
+/// A vertex that was created here.
+struct Fresh {
+    v: Value,
+    /// Length of the log when it was created.
+    since: usize,
+    /// The rings it may have been put into: it is in no other.
+    rings: Vec<Value>,
+    /// Its own ring was not made; what else edits rings changes no empty one.
+    bare: bool,
 }
 
 #[derive(Default)]
 pub(super) struct Known {
-    facts: FxHashMap<Key, Fact>,
+    /// Each with its place in the log.
+    facts: FxHashMap<Key, (Fact, usize)>,
     /// Keys in the order in which they were learned.
     log: Vec<Key>,
     scopes: Vec<usize>,
+    fresh: Vec<Fresh>,
 }
 
 impl Known {
@@ -80,18 +99,19 @@ impl Known {
         for key in self.log.drain(mark..) {
             self.facts.remove(&key);
         }
+        self.fresh.retain(|f| f.since < mark);
     }
 
     /// A fact that is known already stays, for it holds longer.
     pub(super) fn learn(&mut self, key: Key, fact: Fact) {
         if let Entry::Vacant(entry) = self.facts.entry(key) {
-            entry.insert(fact);
+            entry.insert((fact, self.log.len()));
             self.log.push(key);
         }
     }
 
     pub(super) fn get(&self, key: Key) -> Option<Fact> {
-        self.facts.get(&key).copied()
+        self.facts.get(&key).map(|&(fact, _)| fact)
     }
 
     pub(super) fn holds(&self, key: Key) -> bool {
@@ -101,5 +121,69 @@ impl Known {
     /// Rings, as they are or as they were, may have changed or moved.
     pub(super) fn forget_rings(&mut self, of_old: bool) {
         self.facts.retain(|key, _| !matches!(key, Key::Bounds { old, .. } | Key::Find { old, .. } if *old == of_old));
+    }
+
+    /// A vertex was created just now.
+    pub(super) fn created(&mut self, v: Value) {
+        self.fresh.push(Fresh { v, since: self.log.len(), rings: Vec::new(), bare: true });
+        self.learn(Key::NotNull(v), Fact::Holds);
+    }
+
+    pub(super) fn learn_that_differ(&mut self, a: Value, b: Value) {
+        self.learn(Key::Differ(a.min(b), a.max(b)), Fact::Holds);
+    }
+
+    /// Whether two vertices are sure to be different ones.
+    pub(super) fn differ(&self, a: Value, b: Value) -> bool {
+        self.holds(Key::Differ(a.min(b), a.max(b))) || self.is_younger(a, b) || self.is_younger(b, a)
+    }
+
+    /// Whether `a` was created when `b` was a vertex already.
+    fn is_younger(&self, a: Value, b: Value) -> bool {
+        let was = self.facts.get(&Key::NotNull(b)).map(|&(_, place)| place);
+        self.fresh(a).zip(was).is_some_and(|(a, was)| was < a.since)
+    }
+
+    fn fresh(&self, v: Value) -> Option<&Fresh> {
+        self.fresh.iter().find(|f| f.v == v)
+    }
+
+    /// Whether `x` is sure not to stand in the ring of `v` as it is.
+    pub(super) fn is_absent(&self, x: Value, v: Value) -> bool {
+        self.fresh(x).is_some_and(|x| x.rings.iter().all(|&w| self.differ(v, w)))
+    }
+
+    /// Whether `v` is sure to have had no ring yet.
+    pub(super) fn is_bare(&self, v: Value) -> bool {
+        self.fresh(v).is_some_and(|v| v.bare)
+    }
+
+    /// Something, `None` for a gap, is put into the ring of `v`.
+    pub(super) fn put(&mut self, x: Option<Value>, v: Value) {
+        let Some(x) = x else { return };
+        for i in 0..self.fresh.len() {
+            if !self.differ(x, self.fresh[i].v) {
+                self.fresh[i].rings.push(v);
+            }
+        }
+    }
+
+    /// Anything may be put into the ring of `v`.
+    pub(super) fn put_any(&mut self, v: Value) {
+        for fresh in &mut self.fresh {
+            fresh.rings.push(v);
+        }
+    }
+
+    /// The ring of `v` is made.
+    pub(super) fn made(&mut self, v: Value) {
+        for i in 0..self.fresh.len() {
+            self.fresh[i].bare &= self.differ(v, self.fresh[i].v);
+        }
+    }
+
+    /// New vertices may have been put anywhere.
+    pub(super) fn forget_new(&mut self) {
+        self.fresh.clear();
     }
 }

@@ -2,6 +2,7 @@
 
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, Value, types};
 
+use super::known::{Fact, Key};
 use super::{Storage, Symbol, Translated, Translator, Val, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
@@ -222,7 +223,8 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(write);
         let next = self.b.ins().iadd_imm_s(count, 1);
         let v = self.b.ins().ireduce(types::I32, next);
-        self.known.learn(super::known::Key::NotNull(v), super::known::Fact::Holds);
+        self.known.created(v);
+        self.known.learn(Key::Wide(v), Fact::Is(next));
         let base = self.load_context(types::I64, context::HEADS);
         let head = self.element(base, v, context::HEAD_SIZE);
         let zero32 = self.int32(0);

@@ -2,7 +2,7 @@
 //! is rare (longer rings, gaps, edge values, rings that must move) is left to the runtime.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, Value, types};
+use cranelift_codegen::ir::{Block, Endianness, InstBuilder, MemFlagsData, Value, types};
 
 use super::known::{Bounds, Fact, Found, Key};
 use super::{Symbol, Translated, Translator};
@@ -79,7 +79,7 @@ impl<'p> Translator<'_, 'p> {
         if self.known.holds(Key::Held(v)) {
             return;
         }
-        let wide = self.b.ins().uextend(types::I64, v);
+        let wide = self.wide(v);
         let prefix = self.load_context(types::I64, context::OLD_PREFIX);
         let beyond = self.b.ins().icmp(IntCC::UnsignedGreaterThan, wide, prefix);
         let ask = self.b.create_block();
@@ -97,10 +97,26 @@ impl<'p> Translator<'_, 'p> {
 
     /// Address of an element of an array with one per vertex; offsets from it are the element's own.
     pub(super) fn element(&mut self, base: Value, v: Value, size: i64) -> Value {
-        let wide = self.b.ins().uextend(types::I64, v);
-        let index = self.b.ins().iadd_imm_s(wide, -1);
-        let offset = self.b.ins().imul_imm_s(index, size);
-        self.b.ins().iadd(base, offset)
+        let wide = self.wide(v);
+        let offset = self.b.ins().imul_imm_s(wide, size);
+        let behind = self.b.ins().iadd(base, offset);
+        self.b.ins().iadd_imm_s(behind, -size)
+    }
+
+    /// A number of 32 bits, without sign, that is loaded in 64, which costs nothing and saves widening it.
+    pub(super) fn load_number(&mut self, flags: MemFlagsData, address: Value, offset: i32) -> Value {
+        let wide = self.b.ins().uload32(flags, address, offset);
+        let narrow = self.b.ins().ireduce(types::I32, wide);
+        self.known.learn(Key::Wide(narrow), Fact::Is(wide));
+        narrow
+    }
+
+    /// A number of 32 bits, without sign, in 64.
+    pub(super) fn wide(&mut self, x: Value) -> Value {
+        match self.known.get(Key::Wide(x)) {
+            Some(Fact::Is(wide)) => wide,
+            _ => self.b.ins().uextend(types::I64, x),
+        }
     }
 
     pub(super) fn head(&mut self, v: Value, old: bool) -> Value {
@@ -114,8 +130,8 @@ impl<'p> Translator<'_, 'p> {
         }
         let head = self.head(v, old);
         let flags = if old { self.regions.old } else { self.regions.heads };
-        let offset = self.b.ins().load(types::I32, flags, head, context::HEAD_OFFSET);
-        let len = self.b.ins().load(types::I32, flags, head, context::HEAD_LEN);
+        let offset = self.load_number(flags, head, context::HEAD_OFFSET);
+        let len = self.load_number(flags, head, context::HEAD_LEN);
         let start = self.slot_address(offset, old);
         let bounds = Bounds { start, len, flags: if old { self.regions.old } else { self.regions.slots } };
         self.known.learn(Key::Bounds { v, old }, Fact::Bounds(bounds));
@@ -124,20 +140,20 @@ impl<'p> Translator<'_, 'p> {
 
     pub(super) fn slot_address(&mut self, offset: Value, old: bool) -> Value {
         let base = self.load_context(types::I64, if old { context::OLD_SLOTS } else { context::SLOTS });
-        let wide = self.b.ins().uextend(types::I64, offset);
+        let wide = self.wide(offset);
         let bytes = self.b.ins().ishl_imm_u(wide, 2);
         self.b.ins().iadd(base, bytes)
     }
 
     /// Bytes of so many slots.
     pub(super) fn bytes_of(&mut self, slots: Value) -> Value {
-        let wide = self.b.ins().uextend(types::I64, slots);
+        let wide = self.wide(slots);
         self.b.ins().ishl_imm_u(wide, 2)
     }
 
     pub(super) fn load_slot(&mut self, start: Value, offset: Value, flags: MemFlagsData) -> Value {
         let address = self.b.ins().iadd(start, offset);
-        self.b.ins().load(types::I32, flags, address, 0)
+        self.load_number(flags, address, 0)
     }
 
     /// Slots from an address on, which nothing aligns.
@@ -146,25 +162,29 @@ impl<'p> Translator<'_, 'p> {
         (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32)).collect()
     }
 
-    /// A bit for each of the first `len` lanes that holds `x`.
-    pub(super) fn matches(&mut self, lanes: &[Value], x: Value, len: Value) -> Value {
+    /// Bytes from the first lane to the first one that holds `x`, i64; at least all their bytes if none does.
+    pub(super) fn first_match(&mut self, lanes: &[Value], x: Value) -> Value {
         let x = self.b.ins().splat(types::I32X4, x);
-        let mut all = None;
-        for (k, &lane) in lanes.iter().enumerate() {
-            let equal = self.b.ins().icmp(IntCC::Equal, lane, x);
-            let bits = self.b.ins().vhigh_bits(types::I32, equal);
-            all = Some(match all {
-                None => bits,
-                Some(low) => {
-                    let high = self.b.ins().ishl_imm_u(bits, 4 * k as i64);
-                    self.b.ins().bor(low, high)
-                }
-            });
+        let mut equal: Vec<Value> = lanes.iter().map(|&lane| self.b.ins().icmp(IntCC::Equal, x, lane)).collect();
+        // How many bits stand for a slot becomes how many bytes: 4 = 1 << 2 = 2 << 1.
+        let mut shift = 2;
+        if equal.len() > 1 {
+            equal = self.narrowed(&equal);
+            shift = 1;
         }
-        let one = self.b.ins().iconst(types::I32, 1);
-        let end = self.b.ins().ishl(one, len);
-        let mask = self.b.ins().iadd_imm_s(end, -1);
-        all.map_or(mask, |all| self.b.ins().band(all, mask))
+        if equal.len() > 1 {
+            equal = self.narrowed(&equal);
+            shift = 2;
+        }
+        let lanes = if shift == 1 { self.b.ins().bitcast(types::I8X16, little_endian(), equal[0]) } else { equal[0] };
+        let bits = self.b.ins().vhigh_bits(types::I64, lanes);
+        let first = self.b.ins().ctz(bits);
+        self.b.ins().ishl_imm_u(first, shift)
+    }
+
+    /// Lanes of half the width, two by two.
+    fn narrowed(&mut self, lanes: &[Value]) -> Vec<Value> {
+        lanes.chunks(2).map(|pair| self.b.ins().snarrow(pair[0], pair[pair.len() - 1])).collect()
     }
 
     /// Rings up to these lengths are searched and edited in line, four slots at a time. A refinement that doubles
@@ -194,19 +214,17 @@ impl<'p> Translator<'_, 'p> {
         {
             return Ok(found);
         }
-        let bounds = self.bounds_of(source)?;
-        let Bounds { start, len, flags } = bounds;
-        let (done, results) = self.block_with(&[types::I32]);
-        let slow = self.b.create_block();
+        let Bounds { start, len, flags } = self.bounds_of(source)?;
+        let bytes = self.bytes_of(len);
+        let (done, results) = self.block_with(&[types::I64, types::I64]);
+        let [slow, missing] = [(); 2].map(|()| self.b.create_block());
         self.b.set_cold_block(slow);
         if let Some(x) = x {
             self.by_width(len, 0, slow, |t, width| {
                 let lanes = t.lanes(start, width, flags);
-                let bits = t.matches(&lanes, x, len);
-                let index = t.b.ins().ctz(bits);
-                let none = t.b.ins().iconst(types::I32, -1);
-                let index = t.b.ins().select(bits, index, none);
-                t.jump_with(done, &[index]);
+                let at = t.first_match(&lanes, x);
+                let found = t.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes);
+                t.b.ins().brif(found, done, &[start.into(), at.into()], missing, &[]);
             });
         } else {
             self.b.ins().jump(slow, &[]);
@@ -220,41 +238,49 @@ impl<'p> Translator<'_, 'p> {
             }
             Source::Variable(_) => self.call(Symbol::ListFind, &[start, len, sought]),
         };
-        self.jump_with(done, &[index.unwrap_or(sought)]);
-        self.continue_in(done);
-        let index = results[0];
+        let index = index.unwrap_or(sought);
         let found = self.b.ins().icmp_imm_s(IntCC::SignedGreaterThanOrEqual, index, 0);
-        let zero = self.int32(0);
-        let index = self.b.ins().select(found, index, zero);
         let at = self.bytes_of(index);
-        let bytes = self.bytes_of(len);
-        let found = Found { start, bytes, at, found: Some(found), flags };
+        self.b.ins().brif(found, done, &[start.into(), at.into()], missing, &[]);
+        self.continue_in(missing);
+        let nothing = self.nothing();
+        let middle = self.b.ins().iconst(types::I64, 4);
+        self.jump_with(done, &[nothing, middle]);
+        self.continue_in(done);
+        let found = Found { start: results[0], bytes, at: results[1], certain: false, flags };
         if let (Some(x), Source::Of { v, old }) = (x, source) {
             self.known.learn(Key::Find { x, v, old }, Fact::Found(found));
         }
         Ok(found)
     }
 
+    /// Where what is not there is said to stand, in the middle of nulls: so what follows and what precedes it is null.
+    fn nothing(&mut self) -> Value {
+        self.b.ins().iadd_imm_s(self.context, i64::from(context::NOTHING))
+    }
+
+    /// Whether it is there.
+    pub(super) fn is_found(&mut self, found: Found) -> Value {
+        if found.certain {
+            return self.b.ins().iconst(types::I8, 1);
+        }
+        let nothing = self.nothing();
+        self.b.ins().icmp(IntCC::NotEqual, found.start, nothing)
+    }
+
     /// What follows or precedes; null if it is not there.
     pub(super) fn neighbour(&mut self, found: Found, forward: bool) -> Value {
-        let zero = self.b.ins().iconst(types::I64, 0);
         let forward = forward != self.mutated(Mutation::NextIsPrevious);
-        let offset = if forward {
+        if forward {
+            let zero = self.b.ins().iconst(types::I64, 0);
             let next = self.b.ins().iadd_imm_s(found.at, 4);
             let last = self.b.ins().icmp(IntCC::Equal, next, found.bytes);
-            self.b.ins().select(last, zero, next)
+            let offset = self.b.ins().select(last, zero, next);
+            self.load_slot(found.start, offset, found.flags)
         } else {
             let from = self.b.ins().select(found.at, found.at, found.bytes);
-            self.b.ins().iadd_imm_s(from, -4)
-        };
-        match found.found {
-            None => self.load_slot(found.start, offset, found.flags),
-            Some(is) => {
-                let offset = self.b.ins().select(is, offset, zero);
-                let y = self.load_slot(found.start, offset, found.flags);
-                let null = self.int32(0);
-                self.b.ins().select(is, y, null)
-            }
+            let offset = self.b.ins().iadd_imm_s(from, -4);
+            self.load_slot(found.start, offset, found.flags)
         }
     }
 
@@ -307,4 +333,9 @@ impl<'p> Translator<'_, 'p> {
 /// A kind of memory, for loads and stores of more than one slot.
 pub(super) fn unaligned(flags: MemFlagsData) -> MemFlagsData {
     MemFlagsData::new().with_notrap().with_alias_region(flags.alias_region())
+}
+
+/// The order of lanes in memory, for looking at them as lanes of another width.
+pub(super) fn little_endian() -> MemFlagsData {
+    MemFlagsData::new().with_endianness(Endianness::Little)
 }

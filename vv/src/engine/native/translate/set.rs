@@ -66,7 +66,7 @@ impl<'p> Translator<'_, 'p> {
         let dense = self.b.ins().icmp(IntCC::Equal, all, len);
         self.b.ins().brif(dense, count, &[], call, &[]);
         self.continue_in(count);
-        let wide = self.b.ins().uextend(types::I64, v);
+        let wide = self.wide(v);
         let place = self.b.ins().isub(wide, first);
         let within = self.b.ins().icmp(IntCC::UnsignedLessThan, place, len);
         let within = self.inverted_if(within, Mutation::IsInSetInverted);
@@ -95,7 +95,7 @@ impl<'p> Translator<'_, 'p> {
         let len = self.b.ins().load(types::I64, flags, set_address, context::SET_LEN);
         let capacity = self.b.ins().load(types::I64, flags, set_address, context::SET_CAPACITY);
         let last = self.b.ins().load(types::I64, flags, set_address, context::SET_LAST);
-        let wide = self.b.ins().uextend(types::I64, v);
+        let wide = self.wide(v);
         let above = self.b.ins().icmp(IntCC::UnsignedGreaterThan, wide, last);
         let room = self.b.ins().icmp(IntCC::UnsignedLessThan, len, capacity);
         let push = self.b.ins().band(above, room);

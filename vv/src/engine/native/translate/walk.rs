@@ -174,21 +174,28 @@ impl<'p> Translator<'_, 'p> {
         let end = self.b.ins().iadd(first, bytes);
         self.forget(effects);
         let rounds = Rounds { local, follower, first, end, begin, flags, gaps, span };
-        self.walk(&rounds, walk, exit, body, |t, sides| match source {
-            Source::Of { v, old } if !moves => {
-                for &(x, at) in sides {
-                    let at = t.b.ins().isub(at, first);
-                    let found = Found { start: first, bytes, at, found: None, flags };
-                    t.known.learn(Key::Find { x, v, old }, Fact::Found(found));
+        self.walk(&rounds, walk, exit, body, |t, sides| {
+            if let Source::Of { v, .. } = source {
+                for &(x, _) in sides {
+                    t.known.learn_that_differ(x, v);
                 }
             }
-            // A side of a face is a slot of its vertex' ring, in which its end stands once.
-            Source::Variable(_) if orbit => {
-                if let &[(p, at), (q, _)] = sides {
-                    t.known.learn(Key::Side { p, q, start: first }, Fact::At(at));
+            match source {
+                Source::Of { v, old } if !moves => {
+                    for &(x, at) in sides {
+                        let at = t.b.ins().isub(at, first);
+                        let found = Found { start: first, bytes, at, certain: true, flags };
+                        t.known.learn(Key::Find { x, v, old }, Fact::Found(found));
+                    }
                 }
+                // A side of a face is a slot of its vertex' ring, in which its end stands once.
+                Source::Variable(_) if orbit => {
+                    if let &[(p, at), (q, _)] = sides {
+                        t.known.learn(Key::Side { p, q, start: first }, Fact::At(at));
+                    }
+                }
+                _ => {}
             }
-            _ => {}
         })?;
         self.continue_in(exit);
         if let Walk::Ring(count) = walk {
@@ -353,7 +360,7 @@ impl<'p> Translator<'_, 'p> {
 
     /// The vertex at an address, which is not null; a gap goes on to `next`.
     fn walked_vertex(&mut self, at: Value, flags: MemFlagsData, gaps: bool, next: Block) -> Value {
-        let v = self.b.ins().load(types::I32, flags, at, 0);
+        let v = self.load_number(flags, at, 0);
         if gaps {
             let hole = self.b.ins().icmp_imm_s(IntCC::Equal, v, 0);
             self.leave_if(hole, next);
@@ -373,6 +380,9 @@ impl<'p> Translator<'_, 'p> {
     fn forget(&mut self, effects: Effects) {
         if effects.edits {
             self.known.forget_rings(false);
+            if !self.mutated(Mutation::ForgetsWhatLoopsPut) {
+                self.known.forget_new();
+            }
         }
         if effects.synchronizes {
             self.known.forget_rings(true);
