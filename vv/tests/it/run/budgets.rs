@@ -18,7 +18,11 @@ fn fail(text: &str, settings: &Settings) -> Failure {
 
 #[track_caller]
 fn check_limit(limits: Limits, body: &str, message: &str) {
-    let text = format!("static void f(mesh T) {{ vertex x; add x to T; f(T); }}\nvoid step(mesh& S) {{\n{body}\n}}");
+    let text = format!(
+        "static void f(mesh T) {{ vertex x; add x to T; f(T); }}
+         static void g(ring r) {{ add any in r to r; g(r); }}
+         void step(mesh& S) {{\n{body}\n}}"
+    );
     let failure = fail(&text, &Settings { limits, ..Settings::default() });
     assert_eq!(failure.kind, FailureKind::Budget, "{}", failure.diagnostic.message);
     assert_eq!(failure.diagnostic.message, message);
@@ -42,6 +46,10 @@ fn memory() {
     check("vertex v; while (true) { vertex x; make {x} nb_of v; make {v} nb_of x; }");
     check("vertex v, w; make {w} nb_of v; while (true) { vertex x; splice x after w in v; }");
     check("while (true) { vertex x; add x to S; synchronize S; }");
+    check("vertex x; ring r; while (true) add x to r;");
+    check("vertex x; ring r; add x to r; while (true) splice x after x in r;");
+    check("vertex x; ring r; add x to r; while (true) forall y in r add y to r;");
+    check("vertex x; ring r; for (int i = 0; i < 300; i++) add x to r; g(r);");
     // Each call has a set of its own.
     check("for (int i = 0; i < 3000; i++) { vertex x; add x to S; } f(S);");
 }
@@ -50,6 +58,15 @@ fn memory() {
 fn sets_that_share_their_members_cost_nothing() {
     let text = "static void f(mesh T, int n) { if (n > 0) f(T, n - 1); }
                 void step(mesh& S) { for (int i = 0; i < 20000; i++) { vertex x; add x to S; } f(S, 500); }";
+    let program = compile(text);
+    let settings = Settings { limits: Limits { max_bytes: 8 << 20, ..Limits::default() }, ..Settings::default() };
+    run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, &settings, &mut Vec::new()).unwrap();
+}
+
+#[test]
+fn rings_that_share_their_vertices_cost_nothing() {
+    let text = "static void f(ring r, int n) { if (n > 0) f(r, n - 1); }
+                void step(mesh& S) { vertex v; ring r; for (int i = 0; i < 20000; i++) add v to r; f(r, 500); }";
     let program = compile(text);
     let settings = Settings { limits: Limits { max_bytes: 8 << 20, ..Limits::default() }, ..Settings::default() };
     run(&program, program.default_rule().unwrap(), &Mesh::new(), 1, &settings, &mut Vec::new()).unwrap();
@@ -109,6 +126,8 @@ fn every_loop_can_be_stopped() {
         "int n = 0; while (true) { n++; n--; }",
         "f();",
         "vertex a; mesh T; add a to T; while (true) forall v in T ;",
+        "vertex a, b; make {b} nb_of a; make {a} nb_of b; add a to S; add b to S; while (true) forall f in faces S ;",
+        "vertex a; ring r; add a to r; while (true) forall p, q in r from a ;",
         "for (int i = 0; i < 100000; i++) { vertex x; add x to S; } while (true) { mesh T = S; merge T with S; }",
     ] {
         let stop = Stop::new();
