@@ -31,7 +31,11 @@ impl<'a> Checker<'a> {
         match e.ty {
             Type::Value(_) => Some(e),
             Type::Mesh => self.fail(Diagnostic::error(e.span, "a mesh is no value to compute with")),
-            Type::Ring => self.fail(Diagnostic::error(e.span, "a ring is no value to compute with")),
+            Type::Ring => {
+                let text = self.text(e.span);
+                let error = Diagnostic::error(e.span, "a ring is no value to compute with");
+                self.fail(error.hint(format!("ask it: `valence {text}`, `any in {text}`, `is v in {text}`")))
+            }
             Type::Void => self.fail(Diagnostic::error(e.span, "this gives no value")),
         }
     }
@@ -341,11 +345,14 @@ impl<'a> Checker<'a> {
         }
         let name = if matches!(name, "point" | "vector") { "vec" } else { name };
         let rows: Vec<Builtin> = Builtin::named(name).collect();
-        let values: Vec<Option<Expr>> = arguments.iter().map(|a| self.value(a)).collect();
         if rows.is_empty() {
+            for argument in arguments {
+                let _ = self.expression(argument);
+            }
             self.unknown_function(name, callee.span);
             return None;
         }
+        let values: Vec<Option<Expr>> = arguments.iter().map(|a| self.value(a)).collect();
         let values: Vec<Expr> = values.into_iter().collect::<Option<_>>()?;
         self.call_builtin(&rows, name, values, span)
     }

@@ -351,6 +351,10 @@ impl<'a> Checker<'a> {
             (VERTEX, None) if text == "pos" || self.vertex_properties.names.contains_key(text) => {
                 error.fix(format!("write `{owner}${text}`"), dot_and_name, format!("${text}"))
             }
+            (Type::Mesh, _) if text == "faces" => error.hint(format!("write `forall f in faces {owner}`")),
+            (Type::Mesh, _) if matches!(text, "vertices" | "edges") => {
+                error.hint(format!("write `forall p in {owner}`"))
+            }
             (Type::Mesh, _) if self.mesh_properties.names.contains_key(text) => {
                 error.fix(format!("write `{owner}${text}`"), dot_and_name, format!("${text}"))
             }

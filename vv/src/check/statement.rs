@@ -107,6 +107,12 @@ impl<'a> Checker<'a> {
                 }
                 return false;
             }
+            TreeStmt::Make { items, .. } if items.len() == 1 && self.named_ring(&items[0]).is_some() => {
+                let item = &items[0];
+                let error = Diagnostic::error(item.span, "this is a `ring`, and a list holds vertices");
+                self.report(error.hint(format!("write `make {} nb_of v;` without braces", self.text(item.span))));
+                None
+            }
             TreeStmt::Make { items, of } => {
                 let items: Vec<_> = items.iter().map(|item| self.item(item)).collect();
                 let of = self.ring_taker(of);
@@ -463,6 +469,11 @@ impl<'a> Checker<'a> {
 
     /// The mesh whose faces are walked.
     fn faces_of(&mut self, e: &'a tree::Expr) -> Option<Expr> {
+        if let Tree::Old(inner) = &bare(e).kind {
+            let now = self.text(inner.span);
+            let error = Diagnostic::error(e.span, "the faces of a mesh are walked as they are, not as they were");
+            return self.fail(error.fix("leave the mark out", e.span, now));
+        }
         let found = self.expression(e)?;
         if found.ty == VERTEX {
             let text = self.text(e.span);

@@ -34,7 +34,10 @@ impl<'a> Checker<'a> {
         } else if Builtin::named(name).next().is_some() {
             error.hint(format!("call the function: `{name}(…)`"))
         } else {
-            self.suggest_variable(error, name, span, wanted)
+            match name {
+                "faces" => error.hint("say of which mesh: `forall f in faces S`"),
+                _ => self.suggest_variable(error, name, span, wanted),
+            }
         };
         self.report(error);
     }

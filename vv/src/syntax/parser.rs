@@ -8,6 +8,7 @@
 mod algebra;
 mod declarations;
 mod expressions;
+mod forall;
 mod foreign;
 mod items;
 mod statements;

@@ -122,7 +122,7 @@ pub(super) fn foreign_type(word: &str) -> Option<(&'static str, Option<TypeKind>
         "vec3" | "Vec3" | "dvec3" | "Vector3d" | "Point" | "Vector" | "Vec" => ("vec", Some(TypeKind::Vec)),
         "Vertex" | "node" => ("vertex", Some(TypeKind::Vertex)),
         "Mesh" | "set" => ("mesh", Some(TypeKind::Mesh)),
-        "Ring" | "polygon" | "Polygon" | "Face" => ("ring", Some(TypeKind::Ring)),
+        "Ring" | "face" | "Face" | "polygon" | "Polygon" => ("ring", Some(TypeKind::Ring)),
         "auto" | "var" | "let" => ("the type itself", None),
         _ => return None,
     })

@@ -1,7 +1,7 @@
 //! The algebra: its statements and queries.
 
 use super::super::lexer::Kind;
-use super::super::tree::{Expr, ExprKind, Forall, From, Name, Side, StmtKind};
+use super::super::tree::{Expr, ExprKind, Side, StmtKind};
 use super::super::words;
 use super::{Parser, Role, Tall};
 use crate::diagnostic::Diagnostic;
@@ -83,111 +83,12 @@ impl Parser<'_> {
 
     fn pair(&mut self, word: &'static str, form: &str) -> (Expr, Expr) {
         let mut first = self.unary();
+        if !self.panicking && self.kind() == Kind::Comma {
+            let error = Diagnostic::error(self.here(), format!("expected `{word}`, found `,`"));
+            self.fail(error.hint(format!("one at a time: {form}")));
+        }
         let second = self.second(&mut first, word, form);
         (first.expr, second.expr)
-    }
-
-    /// ``forall q in `p …``; `lenient`: what C++ has instead was reported already.
-    pub(super) fn forall(&mut self, lenient: bool) -> StmtKind {
-        self.bump_as(Role::Algebra);
-        let open = self.at;
-        let parentheses = self.eat(Kind::OpenParen);
-        if parentheses && !lenient {
-            let span = self.previous();
-            self.mend(Diagnostic::error(span, "`forall` takes no parentheses").hint("write `forall p in S { … }`"));
-        }
-        let variable = self.loop_variable(lenient);
-        let follower = self.eat(Kind::Comma).then(|| self.loop_variable(lenient));
-        if !self.panicking && self.kind() == Kind::Comma {
-            let error = Diagnostic::error(self.here(), "a `forall` has one variable, or two that follow each other");
-            self.mend(error.hint("write `forall p in S { … }` or `forall p, q in f { … }`"));
-            while self.eat(Kind::Comma) {
-                self.loop_variable(true);
-            }
-        }
-        let mut faces = None;
-        let over = if self.panicking {
-            self.error_expression().expr
-        } else if self.word() == "in" {
-            self.bump_as(Role::Algebra);
-            faces = self.faces();
-            self.over()
-        } else if self.kind() == Kind::Colon {
-            let span = self.here();
-            if !lenient {
-                self.mend(Diagnostic::error(span, "expected `in`, found `:`").fix("write `in`", span, "in"));
-            }
-            self.bump();
-            self.over()
-        } else {
-            let name = ExprKind::Name(variable.text.clone());
-            let mut left = Tall { expr: Expr { kind: name, span: variable.span }, height: 1 };
-            self.second(&mut left, "in", "`forall p in S { … }`").expr
-        };
-        let from = self.from();
-        if parentheses {
-            self.close(Kind::CloseParen, open);
-        }
-        self.recover_header();
-        let body = *self.body("the loop");
-        StmtKind::Forall(Box::new(Forall { variable, follower, faces, over, from, body }))
-    }
-
-    fn loop_variable(&mut self, lenient: bool) -> Name {
-        if self.typed_name_at(self.at) {
-            let span = self.here();
-            let error =
-                Diagnostic::error(span, "the variable of a `forall` needs no type, it has that of what is walked");
-            let with_space = Span { end: self.span_at(self.at + 1).start, ..span };
-            if !lenient {
-                self.mend(error.fix("leave the type out", with_space, ""));
-            }
-            self.bump_as(Role::Type);
-        }
-        self.name("the loop's variable")
-    }
-
-    /// The word `faces` before a set. A set may have this name: `forall v in faces add v to S`.
-    fn faces(&mut self) -> Option<Span> {
-        let (at, word, span) = (self.at, self.word(), self.here());
-        let behind = at + 1;
-        let body = words::STATEMENTS.contains(&self.word_at(behind)) && self.begins_operation(behind);
-        if !self.begins_operation(at) || self.token(behind).new_line || body || self.edge_at(behind) {
-            return None;
-        }
-        if word != words::FACES {
-            // `forall f in face S {`
-            let named = self.kind_at(behind) == Kind::Word && self.kind_at(behind + 1) == Kind::OpenBrace;
-            words::similar(word, [words::FACES]).filter(|_| named)?;
-            let error = Diagnostic::error(span, format!("unknown word `{word}`"));
-            self.mend(error.fix(format!("did you mean `{}`?", words::FACES), span, words::FACES));
-        }
-        self.bump_as(Role::Algebra);
-        Some(span)
-    }
-
-    /// `from p, q`
-    fn from(&mut self) -> Option<From> {
-        if self.panicking || self.word() != "from" || !self.operand_at(self.at + 1) {
-            return None;
-        }
-        self.bump_as(Role::Algebra);
-        let corner = self.over();
-        if !self.eat(Kind::Comma) {
-            return Some(From { corner, next: None });
-        }
-        if !self.operand_at(self.at) {
-            let error = Diagnostic::error(self.here(), format!("expected a vertex, found {}", self.found()));
-            self.fail(error.hint("write `forall x in f from p, q { … }`"));
-        }
-        Some(From { corner, next: Some(self.over()) })
-    }
-
-    /// Whether `type name` stands at a token, where a loop's variable is to be named.
-    pub(super) fn typed_name_at(&self, at: usize) -> bool {
-        let (word, name) = (self.word_at(at), self.word_at(at + 1));
-        let is_type = words::any_type(word).is_some() || words::foreign_type(word).is_some();
-        is_type && !name.is_empty() && (name != "in" || self.word_at(at + 2) == "in")
     }
 
     /// After the head of a loop or branch went wrong: goes on with the body if that can be found.
@@ -231,7 +132,7 @@ impl Parser<'_> {
                     self.bump();
                 }
             }
-        } else if matches!(self.word_at(open + 1), "nb" | "nb_of") {
+        } else if self.kind() == Kind::Word && matches!(self.word_at(open + 1), "nb" | "nb_of" | "of" | "to" | "in") {
             let mut ring = self.unary();
             let of = self.second(&mut ring, "nb_of", "`make r nb_of v`").expr;
             return StmtKind::MakeRing { ring: ring.expr, of };
@@ -355,6 +256,14 @@ impl Parser<'_> {
     pub(super) fn query(&mut self, before_body: bool) -> Tall {
         let start = self.at;
         let mut word = self.word();
+        let behind = start + 1;
+        let beside = self.kind_at(behind) == Kind::Word && !self.token(behind).new_line;
+        if word == words::FACES && !before_body && beside && self.begins_operation(start) {
+            let set = self.word_at(behind);
+            let error = Diagnostic::error(self.here(), "faces are walked, and are no value");
+            self.fail(error.hint(format!("write `forall f in faces {set} {{ … }}`")));
+            return self.error_expression();
+        }
         if !words::PREFIXES.contains(&word) && self.begins_operation(start) && !self.token(start + 1).new_line {
             // `nextot q in p`: nothing else makes sense.
             let is_call = self.kind_at(start + 1) == Kind::OpenParen;

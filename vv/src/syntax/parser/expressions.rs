@@ -444,6 +444,16 @@ impl Parser<'_> {
                         return of;
                     }
                     self.bump();
+                    if !dollar && self.kind() == Kind::OpenParen {
+                        let owner = self.source(begin);
+                        let error = Diagnostic::error(name.span, "vv has no functions that belong to values");
+                        self.fail(error.hint(match name.text.as_str() {
+                            "add" | "push" | "push_back" | "append" | "insert" => format!("write `add v to {owner};`"),
+                            "size" | "length" | "count" => format!("`valence {owner}` counts the vertices of a ring"),
+                            other => format!("if there is such a function, write `{other}({owner})`"),
+                        }));
+                        return self.error_expression();
+                    }
                     let (span, height) = (begin.to(name.span), of.height);
                     let of_box = Box::new(of.expr);
                     let kind = if dollar {

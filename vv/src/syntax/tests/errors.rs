@@ -361,6 +361,16 @@ fn heads_of_forall() {
         //           ^ error: expected `in`, found `f` | write `forall p in S { … }`
         forall f in face S { a; }
         //          ^^^^ error: unknown word `face` | did you mean `faces`?
+        forall e in edges S { a; }
+        //          ^^^^^ error: unknown word `edges` | each edge once is `forall p in S forall q in p { if (p < q) continue; … }`
+        forall v in vertices S { a; }
+        //          ^^^^^^^^ error: unknown word `vertices` | `forall p in S` walks vertices
+        forall (p, q) in f { a; }
+        //     ^ error: `forall` takes no parentheses | write `forall p in S { … }`
+        forall x from p in f { a; }
+        //       ^^^^ error: expected `in`, found `from` | where the round begins comes last: `forall x in r from p { … }`
+        forall x in f from p q { a; }
+        //                 ^ error: expected `,` after this | write `from p, q`
         forall x in f from p, { a; }
         //                    ^ error: expected a vertex, found `{` | write `forall x in f from p, q { … }`
         forall (p in S) { a; }
@@ -387,6 +397,16 @@ fn rings_are_not_lists() {
       //^^^ error: `rin` is not a type of vv | the types are `bool`, `int`, `double`, `vec`, `vertex`, `mesh` and `ring`
         rinng r;
       //^^^^^ error: `rinng` is not a type of vv | did you mean `ring`?
+        add a, b to r;
+        //   ^ error: expected `to`, found `,` | one at a time: `add v to S`
+        r.add(a);
+        //^^^ error: vv has no functions that belong to values | write `add v to r;`
+        x = r.size() + 1;
+        //    ^^^^ error: vv has no functions that belong to values | `valence r` counts the vertices of a ring
+        make r of v;
+        //     ^^ error: expected `nb_of`, found `of` | write `make r nb_of v`
+        mesh F = faces S;
+        //       ^^^^^ error: faces are walked, and are no value | write `forall f in faces S { … }`
         Face f;
       //^^^^ error: `Face` is not a type of vv | write `ring`
     "#,

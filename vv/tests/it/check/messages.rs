@@ -553,6 +553,8 @@ void f(mesh& S, vertex v, ring r, const ring& s) {
 //                                     ^ error: a ring is no value to compute with
   make v nb_of v;
 //     ^ error: this is a `vertex`, not a list or a `ring`
+  make {r} nb_of v;
+//      ^ error: this is a `ring`, and a list holds vertices
   make {v} nb_of r;
 //               ^ error: a `ring` is no vertex, so it has no neighbours
   make S nb_of v;
@@ -594,6 +596,14 @@ void f(mesh& S, vertex v, ring r) {
 //                  ^ error: this is a `vertex`, and faces are those of a mesh
   forall f in faces r print f;
 //                  ^ error: this is a `ring`, not a `mesh`
+  forall f in faces `S print f;
+//                  ^^ error: the faces of a mesh are walked as they are, not as they were
+  forall f in faces { print f; }
+//            ^^^^^ error: `faces` is not declared
+  forall f in S.faces print f;
+//              ^^^^^ error: a `mesh` has no `.faces`
+  print len(r);
+//      ^^^ error: there is no function `len`
   forall p, q in S print p, q;
 //          ^ error: the members of a mesh do not follow each other round
   forall p in S from v print p;
