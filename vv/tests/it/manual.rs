@@ -55,6 +55,17 @@ fn every_program_of_the_manual_prints_what_stands_under_it() {
     }
 }
 
+#[test]
+fn every_program_that_ships_has_its_row_in_the_manual() {
+    let manual = include_str!("../../README.md");
+    let (_, table) = manual.split_once("## What comes with vv").unwrap();
+    let (table, _) = table.split_once("How long they are").unwrap();
+    let folder = format!("{}/../assets/programs", env!("CARGO_MANIFEST_DIR"));
+    let files = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned());
+    let missing: Vec<_> = files.filter(|file| table.matches(&format!("`{file}`")).count() != 1).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
 fn shipped(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../assets/programs/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
