@@ -39,6 +39,8 @@ pub(super) fn soup() -> impl Strategy<Value = String> {
     let words = [
         "vertex",
         "mesh",
+        "ring",
+        "faces",
         "double",
         "vec",
         "point",

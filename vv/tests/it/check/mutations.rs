@@ -74,6 +74,40 @@ void refine(mesh& S) {
 
 vertex p0(const mesh& M) { forall v in M return v; return null; }
 
+ring around(const mesh& M, vertex v) {
+  ring r;
+  forall f in faces M if (is v in f) { r = f; break; }
+  return r;
+}
+
+void lower(ring& r, vec by) { forall p, q in r p$pos -= by * w + q$pos * 0.01; erase any in r from r; }
+
+double weight(ring f, vertex p, vertex q);
+
+void quads(mesh& S) {
+  mesh F, E;
+  forall f in faces S {
+    vertex c;
+    ring r = f;
+    forall p, q in f { c$pos += p$pos * weight(f, p, q); splice c after q in p; add q to r; }
+    make f nb_of c;
+    lower(r, c$up);
+    replace any in r with c in r; splice c before nextto c in r in r;
+    print r, valence r, is c in r, prevto c in r;
+    add c to F;
+  }
+  forall a, b in p0(F) { erase b from a; add a to E; }
+  ring last = w > 1 ? around(S, p0(S)) : around(E, p0(F));
+  if (valence last > 0) forall x in last from any in last print x;
+  merge S with F;
+}
+
+double weight(ring f, vertex p, vertex q) {
+  double k = 0;
+  forall x in f from p, q k += x$age / valence f;
+  return k + 1.0 / valence f;
+}
+
 void cut(mesh& S) {
   vertex a = p0(S), b = any in a;
   splice null after b in a; replace b with null in a; splice b before nextto null in a in a; erase null from a;
