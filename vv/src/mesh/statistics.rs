@@ -1,11 +1,11 @@
 //! Counts and invariants of a mesh.
 
+use super::Mesh;
 use super::faces::Faces;
 use super::finder::Finder;
 use super::members::Members;
 use super::survey::{Histogram, Survey};
 use super::validate::{self, Finding};
-use super::{Mesh, Vertex};
 use crate::stop::{Stop, Stopped};
 
 /// What a mesh is made of. Counts are over its set.
@@ -52,7 +52,7 @@ pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics,
     let isolated = survey.valences.zeros();
     let mut face_degrees = Histogram::default();
     let (merges, boundary_loops) = rayon::join(
-        || merges(mesh, &members, vertices, stop),
+        || merges(mesh, &members, one_sided == 0, stop),
         || {
             faces.iter().for_each(|face| face_degrees.count(face.len()));
             boundary_loops(mesh, &members, &survey, stop)
@@ -112,31 +112,27 @@ fn boundary_loops(mesh: &Mesh, members: &Members, survey: &Survey, stop: &Stop) 
     Ok(loops)
 }
 
-/// By how much neighbourhood brings the number of components below that of the `vertices` in the set.
-///
-/// Looks at the first entry of each ring, then at the second, and so on: as a rule all are one component long before the
-/// rings come to their ends.
-fn merges(mesh: &Mesh, members: &Members, vertices: usize, stop: &Stop) -> Result<usize, Stopped> {
-    const ROUNDS: usize = 4;
+/// By how much neighbourhood brings the number of components below that of the vertices in the set. Where neighbours
+/// `answer`, the younger ones speak for both.
+fn merges(mesh: &Mesh, members: &Members, answer: bool, stop: &Stop) -> Result<usize, Stopped> {
     let mut components = Components::new(mesh.vertex_count());
     let mut merged = 0;
-    for round in 0..=ROUNDS {
-        for v in mesh.vertices().filter(|&v| members.contains(v)) {
-            stop.check()?;
-            let slots = mesh.ring(v).slots().get(round..).unwrap_or(&[]);
-            let looked_at = if round < ROUNDS { 1 } else { slots.len() };
-            for x in slots.iter().take(looked_at).flatten().filter(|&&x| members.contains(x)) {
-                merged += usize::from(components.join(v, *x));
+    for v in mesh.vertices().filter(|&v| members.contains(v)) {
+        stop.check()?;
+        let mut root = components.root(v.index() as u32);
+        for x in mesh.ring(v).vertices() {
+            if (x < v || !answer) && members.contains(x) {
+                let joined = components.join(root, x.index() as u32);
+                merged += usize::from(joined != root);
+                root = root.min(joined);
             }
-        }
-        if merged + 1 >= vertices {
-            break;
         }
     }
     Ok(merged)
 }
 
-/// Union-find with path halving.
+/// Union-find with path halving. The oldest vertex of a component is its root: deterministic, and with halving still near
+/// linear.
 struct Components(Vec<u32>);
 
 impl Components {
@@ -144,12 +140,14 @@ impl Components {
         Self((0..n as u32).collect())
     }
 
-    /// Whether the two were apart.
-    fn join(&mut self, u: Vertex, v: Vertex) -> bool {
-        let (u, v) = (self.root(u.index() as u32), self.root(v.index() as u32));
-        // The older one stays on top: deterministic, and with halving still near linear.
-        self.0[u.max(v) as usize] = u.min(v);
-        u != v
+    /// Joins the component that has this `root` with that of `v`; returns what the root of `v` was.
+    fn join(&mut self, root: u32, v: u32) -> u32 {
+        if self.0[v as usize] == root {
+            return root; // as almost always
+        }
+        let other = self.root(v);
+        self.0[root.max(other) as usize] = root.min(other);
+        other
     }
 
     fn root(&mut self, mut v: u32) -> u32 {
