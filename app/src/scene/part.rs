@@ -1,6 +1,7 @@
 //! One mesh in arrays.
 
 mod edges;
+mod normals;
 mod pack;
 
 use glam::DVec3;
@@ -90,12 +91,20 @@ impl Part {
         let places = part.add_vertices(mesh, to_scene);
         let mut lines = Self::default();
         // What the one writes the other does not read.
-        let (edges, faces) = rayon::join(
+        let (edges, surface) = rayon::join(
             || lines.add_edges(mesh, faces, &places, stop),
-            || if fill == Fill::Faces { part.add_faces(faces, &places, stop) } else { Ok(()) },
+            || match fill {
+                Fill::Nothing => (Ok(()), Ok(Vec::new())),
+                Fill::Faces => rayon::join(
+                    || part.add_faces(faces, &places, stop),
+                    || normals::vertex_normals(faces, &places, stop),
+                ),
+            },
         );
-        edges.and(faces)?;
+        edges.and(surface.0)?;
+        let normals = surface.1?;
         if fill == Fill::Faces {
+            part.set_normals(&normals, &places);
             part.add_colors(mesh);
         }
         let Self { edges, inner_edge_count, mean_edge, longest_inner_edge, .. } = lines;
@@ -151,19 +160,14 @@ impl Part {
         Ok(())
     }
 
-    /// Triangles, and normals of faces and vertices.
+    /// Triangles, and normals of faces.
     fn add_faces(&mut self, faces: &Faces, places: &Places, stop: &Stop) -> Result<(), Stopped> {
         self.corners.reserve(faces.len().saturating_sub(self.corners.len()));
         let triangles = faces.corners().len().saturating_sub(2 * faces.len());
         self.triangles.reserve(triangles);
         self.triangle_faces.reserve(triangles);
         self.triangle_sides.reserve(triangles);
-        let mut filling = Filling {
-            normals: vec![DVec3::ZERO; self.corners.len()],
-            speaks: vec![false; self.corners.len()],
-            extra: Vec::new(),
-            part: self,
-        };
+        let mut filling = Filling { speaks: vec![false; self.corners.len()], extra: Vec::new(), part: self };
         let mut polygon = Polygon::default();
         let mut filled = 0;
         for (number, face) in (0..).zip(faces.iter()) {
@@ -186,18 +190,21 @@ impl Part {
                 }
             }
         }
-        let Filling { normals, extra, .. } = filling;
+        let extra = filling.extra;
         self.all_filled = filled == faces.len();
-        let (own, further) = self.corners.split_at_mut(normals.len());
-        for (corner, normal) in own.iter_mut().zip(&normals) {
-            corner.normal = normal.try_normalize().map_or(0, |n| pack(n.as_vec3()));
-        }
-        for (corner, &vertex) in further.iter_mut().zip(&extra) {
-            corner.normal = own[vertex as usize].normal;
-        }
         let owners = extra.iter().filter_map(|&vertex| self.vertex(vertex)).collect::<Vec<_>>();
         self.owners.extend(owners);
         Ok(())
+    }
+
+    /// Gives each corner the normal of its vertex.
+    fn set_normals(&mut self, normals: &[u32], places: &Places) {
+        let (own, further) = self.corners.split_at_mut(normals.len());
+        own.iter_mut().zip(normals).for_each(|(corner, &normal)| corner.normal = normal);
+        let owners = self.owners.iter().skip(normals.len());
+        for (corner, &owner) in further.iter_mut().zip(owners) {
+            corner.normal = places.get(owner).map_or(0, |i| normals[i as usize]);
+        }
     }
 
     /// Colours of the corners, if the vertices have some.
@@ -215,8 +222,6 @@ impl Part {
 /// Faces on their way into a part.
 struct Filling<'a> {
     part: &'a mut Part,
-    /// Sums for each vertex.
-    normals: Vec<DVec3>,
     /// Whether the corner of each vertex speaks for a face.
     speaks: Vec<bool>,
     /// The vertex of each further corner.
@@ -236,13 +241,7 @@ struct Polygon {
 impl Filling<'_> {
     fn add_triangle(&mut self, face: u32, ends: [u32; 3], places: &Places) {
         let [a, b, c] = ends.map(|i| places.positions[i as usize]);
-        let (ab, bc, ca) = (b - a, c - b, a - c);
-        let area = ca.cross(ab);
-        let squares = [ab, bc, ca].map(DVec3::length_squared);
-        let weights = [squares[2] * squares[0], squares[0] * squares[1], squares[1] * squares[2]];
-        for (end, weight) in ends.into_iter().zip(weights) {
-            add_corner_normal(&mut self.normals[end as usize], area, weight);
-        }
+        let area = (c - a).cross(a - b);
         let normal = pack(area.normalize_or_zero().as_vec3());
         let first = ends.iter().position(|&end| !self.speaks[end as usize]).unwrap_or(0);
         let [a, b, c] = [ends[first], ends[(first + 1) % 3], ends[(first + 2) % 3]];
@@ -258,13 +257,6 @@ impl Filling<'_> {
         triangulator.triangles(points, area, triangles);
         let normal = area.normalize_or_zero();
         let n = points.len();
-        for i in 0..n {
-            let p = points[i];
-            let (before, after) = (if i == 0 { n - 1 } else { i - 1 }, if i + 1 == n { 0 } else { i + 1 });
-            let (a, b) = (points[before] - p, points[after] - p);
-            let weight = a.length_squared() * b.length_squared();
-            add_corner_normal(&mut self.normals[ends[i] as usize], a.cross(b).length() * normal, weight);
-        }
         // A corner of each triangle speaks for this face: one that does already, one that speaks for none, a new one. Fans
         // need one in all.
         speakers.clear();
@@ -299,17 +291,6 @@ impl Filling<'_> {
         }
         corners[vertex as usize].face_normal = face_normal;
         vertex
-    }
-}
-
-/// Adds the normal of a corner, weighted by `sin α / (|a| |b|)`, where `a` and `b` are the sides that meet there and α is
-/// the angle between them. With these weights normals are exact on a sphere, however its faces are shaped (N. Max,
-/// "Weights for computing vertex normals from facet normals", 1999). `product` is a normal as long as `a × b`, `squares`
-/// is `|a|² |b|²`.
-fn add_corner_normal(normal: &mut DVec3, product: DVec3, squares: f64) {
-    let weight = squares.recip();
-    if weight.is_finite() {
-        *normal += weight * product;
     }
 }
 
