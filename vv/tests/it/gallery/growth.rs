@@ -57,7 +57,7 @@ fn tissue_grows_from_any_closed_mesh() {
 /// The walls that divide a flat square cell the shortest way are as long as its sides.
 #[test]
 fn cells_divide_by_the_shortest_wall() {
-    let still = [("growth", 0.12), ("tip", 40.0)].map(|(name, x)| (name, Value::Double(x)));
+    let still = [("growth", 0.12), ("tip", 30.0)].map(|(name, x)| (name, Value::Double(x)));
     let mut show = Show::on_mesh("cube.obj", "tissue.vv", &[still[0], still[1], ("rounds", Value::Int(1))]);
     while check_tissue(&show) == 6 {
         show.step();
