@@ -71,7 +71,7 @@ mutations! {
     DoubleToIntRounds EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IsInRingInverted
     IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
     NotDoesNothing OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
-    ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StoresNoEdgeValue StoresNoMeshValue StoresNoY
+    ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
 }
 
 /// A compiled program.

@@ -25,7 +25,7 @@ pub(super) struct Context {
     /// Vertices there are, and that all per-vertex arrays have room for.
     pub(super) vertex_count: u64,
     pub(super) vertex_capacity: u64,
-    /// Slots in use, and that the arena has room for, beside [`PADDING`].
+    /// Slots in use, and that compiled code may use of the arena beside [`PADDING`]: none if values lie beside them.
     pub(super) slot_len: u64,
     pub(super) slot_capacity: u64,
     /// Whether values lie beside the slots: then only the runtime edits rings.
@@ -47,6 +47,8 @@ pub(super) struct Context {
     pub(super) value: [u64; 12],
     /// A ring of nulls around what is in no ring. Nobody writes it.
     pub(super) nothing: [u32; 4],
+    /// How many bytes stand before each of the first slots of a ring.
+    pub(super) offsets: [u32; 16],
 }
 
 /// A set whose members compiled code may push.
@@ -55,7 +57,7 @@ pub(super) struct Context {
 pub(super) struct RawSet {
     pub(super) order: *mut u32,
     pub(super) len: u64,
-    /// 0 where only the runtime may add.
+    /// 0 where only the runtime may add: the first member, too.
     pub(super) capacity: u64,
     /// The first member and the largest one: where `len` is the distance between them and one, all between are members,
     /// whatever `capacity` is. 1 and 0 for an empty set.
@@ -187,6 +189,7 @@ offsets! {
     SITE site
     VALUE value
     NOTHING nothing
+    OFFSETS offsets
 }
 
 pub(super) const HEAD_SIZE: i64 = size_of::<Head>() as i64;

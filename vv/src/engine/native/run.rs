@@ -233,6 +233,7 @@ pub(super) fn run(
     unsafe {
         (*context).run = run_pointer.cast();
         (*context).stop = (*run_pointer).fixed.settings.stop.flag().as_ptr();
+        (*context).offsets = std::array::from_fn(|i| 4 * i as u32);
         (*context).max_depth = u64::from((*run_pointer).fixed.settings.limits.max_call_depth);
     }
     // SAFETY: `run` lives until the end of this function and is used through this pointer alone until compiled code has

@@ -19,6 +19,8 @@ mod statement;
 mod variable;
 mod walk;
 
+use std::collections::VecDeque;
+
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{
     AbiParam, AliasRegionData, Block, FuncRef, InstBuilder, MemFlagsData, Signature, Type as ClifType, Value, types,
@@ -230,6 +232,8 @@ pub(super) struct Translator<'t, 'p> {
     context: Value,
     frames: Vec<Frame<'p>>,
     known: Known,
+    /// Places whose operands are computed, in the order in which they will be read.
+    prepared: VecDeque<place::Spot>,
     fail: Block,
     regions: Regions,
     symbol_refs: FxHashMap<Symbol, FuncRef>,
@@ -284,6 +288,7 @@ impl<'t, 'p> Translator<'t, 'p> {
             context,
             frames: Vec::new(),
             known: Known::default(),
+            prepared: VecDeque::new(),
             fail,
             regions,
             symbol_refs: FxHashMap::default(),

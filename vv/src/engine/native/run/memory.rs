@@ -123,7 +123,8 @@ impl Run<'_> {
         context.heads = arrays.heads.edit().as_mut_ptr();
         context.positions = arrays.positions.edit().as_mut_ptr().cast();
         context.slot_len = arrays.slots.len() as u64;
-        context.slot_capacity = arrays.slots.capacity().saturating_sub(PADDING).min(u32::MAX as usize) as u64;
+        let slot_capacity = arrays.slots.capacity().saturating_sub(PADDING).min(u32::MAX as usize) as u64;
+        context.slot_capacity = if context.has_edge_values == 0 { slot_capacity } else { 0 };
         context.slots = arrays.slots.edit().as_mut_ptr().cast();
         for (i, &column) in self.vertex_columns.iter().enumerate() {
             let values = &mut arrays.vertex_properties[column].values;
@@ -164,7 +165,7 @@ impl Run<'_> {
             let raw = match set.members.ascending() {
                 Some(order) => RawSet {
                     len: order.len() as u64,
-                    capacity: order.capacity() as u64,
+                    capacity: if order.is_empty() { 0 } else { order.capacity() as u64 },
                     first: order.first().copied().flatten().map_or(1, number),
                     last: order.last().copied().flatten().map_or(0, number),
                     order: order.as_mut_ptr().cast(),

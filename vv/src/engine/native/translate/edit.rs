@@ -3,7 +3,7 @@
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, ConstantData, InstBuilder, StackSlotData, StackSlotKind, Value, types};
 
-use super::known::{Bounds, Key};
+use super::known::{Bounds, Fact, Key};
 use super::ring::{Source, little_endian, unaligned};
 use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
@@ -166,8 +166,10 @@ impl<'p> Translator<'_, 'p> {
     /// Makes a ring of vertices, or goes to `slow` with nothing done.
     fn make_in_place(&mut self, items: &[Value], v: Value, slow: Block) {
         let k = items.len();
-        let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
-        self.leave_if(edge_values, slow);
+        if !self.known.is_bare(v) {
+            let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
+            self.leave_if(edge_values, slow);
+        }
         let lanes = if k > 3 { self.packed(items, v) } else { Vec::new() };
         let bad = if k > 3 { Some(self.not_a_ring_of_lanes(&lanes, items)) } else { self.not_a_ring(items, v) };
         if let Some(bad) = bad {
@@ -203,7 +205,7 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().store(heads, len, head, context::HEAD_LEN);
     }
 
-    /// Takes slots for a ring of `k`, with gaps in those that it leaves.
+    /// Takes slots for a ring of `k`, with gaps in those that it leaves; to `slow` if there are edge values.
     fn take_slots_for(&mut self, k: usize, head: Value, slow: Block) -> Value {
         let room = (k as i64).max(i64::from(self.unit.facts.fresh_capacity));
         let capacity = self.b.ins().iconst(types::I32, room);
@@ -311,6 +313,13 @@ impl<'p> Translator<'_, 'p> {
     fn replace_in_place(&mut self, a: Value, x: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
         let bytes = self.bytes_of(len);
+        if let Some(Fact::Found(was)) = self.known.get(Key::Find { x: a, v, old: true })
+            && was.certain
+            && self.known.is_absent(x, v)
+            && self.known.differ(x, v)
+        {
+            self.replace_where_it_stood(was.at, a, x, Bounds { start, len, flags }, done);
+        }
         self.by_width(len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
             let at = t.place_to_edit(&lanes, a, bytes, done);
@@ -328,6 +337,26 @@ impl<'p> Translator<'_, 'p> {
             }
             t.b.ins().jump(done, &[]);
         });
+    }
+
+    /// Puts a vertex that may enter in the place of another, if that stands where it stood when rings were made old.
+    fn replace_where_it_stood(&mut self, at: Value, a: Value, x: Value, ring: Bounds, done: Block) {
+        let [look, store, search] = [(); 3].map(|()| self.b.create_block());
+        let bytes = self.bytes_of(ring.len);
+        let within = self.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes);
+        self.b.ins().brif(within, look, &[], search, &[]);
+        self.continue_in(look);
+        let address = self.b.ins().iadd(ring.start, at);
+        let there = self.b.ins().load(types::I32, ring.flags, address, 0);
+        let stood = if self.mutated(Mutation::StandsWhereItStood) { there } else { a };
+        let same = self.b.ins().icmp(IntCC::Equal, there, stood);
+        self.b.ins().brif(same, store, &[], search, &[]);
+        self.continue_in(store);
+        if !self.mutated(Mutation::ReplacesNothing) {
+            self.b.ins().store(ring.flags, x, address, 0);
+        }
+        self.b.ins().jump(done, &[]);
+        self.continue_in(search);
     }
 
     /// Where `a` stands in a ring of so many bytes, which fills the first of the lanes; on to `done` if it does not.
@@ -480,18 +509,16 @@ impl<'p> Translator<'_, 'p> {
 
     /// `first`, `first + 1`, …
     fn lane_numbers(&mut self, first: u32) -> Value {
-        self.lane_constants((first..first + 4).collect())
-    }
-
-    /// How many bytes stand before each of the slots from `first` on.
-    fn lane_offsets(&mut self, first: u32) -> Value {
-        self.lane_constants((first..first + 4).map(|i| 4 * i).collect())
-    }
-
-    fn lane_constants(&mut self, lanes: Vec<u32>) -> Value {
-        let bytes: Vec<u8> = lanes.into_iter().flat_map(u32::to_le_bytes).collect();
+        let bytes: Vec<u8> = (first..first + 4).flat_map(u32::to_le_bytes).collect();
         let constant = self.b.func.dfg.constants.insert(ConstantData::from(bytes));
         self.b.ins().vconst(types::I32X4, constant)
+    }
+
+    /// How many bytes stand before each of the slots from `first` on. They are loaded, for Cranelift would keep constants
+    /// on the stack.
+    fn lane_offsets(&mut self, first: u32) -> Value {
+        let (flags, context) = (unaligned(self.regions.context), self.context);
+        self.b.ins().load(types::I32X4, flags, context, context::OFFSETS + 4 * first as i32)
     }
 
     /// Lane i becomes lane i − 1; the first is of no use.

@@ -3,6 +3,7 @@
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::{ConstantData, InstBuilder, Type as ClifType, Value, types};
 
+use super::known::{Fact, Found, Key};
 use super::ring::Source;
 use super::{Symbol, Translated, Translator, Val, clif_types, wrong_type};
 use crate::engine::native::context;
@@ -88,6 +89,18 @@ impl<'p> Translator<'_, 'p> {
                 let bounds = self.bounds_of(source)?;
                 let first = self.any(bounds);
                 self.learn_that_it_stands_in(first, source);
+                if let Source::Of { v, old } = source {
+                    // Who looks for it has made sure that it is not null.
+                    let at = self.b.ins().iconst(types::I64, 0);
+                    let found = Found {
+                        start: bounds.start,
+                        bytes: self.bytes_of(bounds.len),
+                        at,
+                        certain: true,
+                        flags: bounds.flags,
+                    };
+                    self.known.learn(Key::Find { x: first, v, old }, Fact::Found(found));
+                }
                 Ok(Val::One(first))
             }
             ExprKind::Next(item, ring) => self.look_up(item, ring, true),

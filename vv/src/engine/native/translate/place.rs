@@ -6,7 +6,7 @@ use super::known::{Fact, Key};
 use super::{Storage, Symbol, Translated, Translator, Val, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::ir::{Compound, Expr, LocalId, Place, Step, StepPosition};
+use crate::ir::{Compound, Expr, ExprKind, Item, LocalId, Place, Ring, Step, StepPosition};
 use crate::mesh::Type;
 
 /// A place whose operands are computed.
@@ -24,7 +24,10 @@ pub(super) type Spot = (Target, Option<u8>);
 
 impl<'p> Translator<'_, 'p> {
     pub(super) fn load(&mut self, place: &'p Place) -> Translated<Val> {
-        let spot = self.target(place)?;
+        let spot = match self.prepared.pop_front() {
+            Some(spot) => spot,
+            None => self.target(place)?,
+        };
         self.read(spot)
     }
 
@@ -50,11 +53,24 @@ impl<'p> Translator<'_, 'p> {
 
     /// The vertex whose value is meant: not null, and with an old value if that is meant.
     fn owner(&mut self, e: &'p Expr, old: bool) -> Translated<Value> {
-        let v = self.vertex_not_null(e)?;
+        let v = self.vertex(e)?;
         if old {
             self.held(v);
+        } else {
+            self.not_null(v);
         }
         Ok(v)
+    }
+
+    /// Computes the operands of all places that a value reads, if nothing but reading and arithmetic is in it: so that
+    /// what is read is read when all is there, and need not be kept meanwhile.
+    pub(super) fn prepare(&mut self, e: &'p Expr) -> Translated<()> {
+        let mut places = Vec::new();
+        if gather_places(e, &mut places) && places.len() > 1 {
+            let spots: Translated<Vec<Spot>> = places.into_iter().map(|place| self.target(place)).collect();
+            self.prepared = spots?.into();
+        }
+        Ok(())
     }
 
     pub(super) fn read(&mut self, (target, axis): Spot) -> Translated<Val> {
@@ -165,6 +181,7 @@ impl<'p> Translator<'_, 'p> {
 
     pub(super) fn assign(&mut self, place: &'p Place, op: Option<&'p Compound>, value: &'p Expr) -> Translated<Val> {
         let spot = self.target(place)?;
+        self.prepare(value)?;
         let mut value = self.expression(value)?;
         if let Some(compound) = op {
             let mut was = self.read(spot)?;
@@ -227,11 +244,11 @@ impl<'p> Translator<'_, 'p> {
         self.known.learn(Key::Wide(v), Fact::Is(next));
         let base = self.load_context(types::I64, context::HEADS);
         let head = self.element(base, v, context::HEAD_SIZE);
-        let zero32 = self.int32(0);
+        let zero = self.int32(0);
         let heads = self.regions.heads;
-        self.b.ins().store(heads, zero32, head, context::HEAD_OFFSET);
-        self.b.ins().store(heads, zero32, head, context::HEAD_LEN);
-        self.b.ins().store(heads, zero32, head, context::HEAD_CAPACITY);
+        for field in [context::HEAD_OFFSET, context::HEAD_LEN, context::HEAD_CAPACITY] {
+            self.b.ins().store(heads, zero, head, field);
+        }
         let (_, flags, position) = self.address(Target::Position { v, old: false })?;
         let origin = self.constant(crate::mesh::Value::zero(Type::Vec))?;
         self.store_value(origin, flags, position, 0);
@@ -246,4 +263,43 @@ impl<'p> Translator<'_, 'p> {
         self.store_context(next, context::VERTEX_COUNT);
         Ok(v)
     }
+}
+
+/// The places that an expression reads, in order; `false` if it does more than read positions and vertex properties and
+/// compute with them.
+fn gather_places<'p>(e: &'p Expr, places: &mut Vec<&'p Place>) -> bool {
+    match &e.kind {
+        ExprKind::Constant(_) | ExprKind::Local(_) | ExprKind::Global(_) => true,
+        ExprKind::Load(place) => {
+            places.push(place);
+            reads_only(place)
+        }
+        ExprKind::Binary(_, a, b) => gather_places(a, places) && gather_places(b, places),
+        ExprKind::Unary(_, a) | ExprKind::Convert(_, a) | ExprKind::Coordinate(a, _) => gather_places(a, places),
+        _ => false,
+    }
+}
+
+/// Whether computing the operands of a place only looks at rings.
+fn reads_only(place: &Place) -> bool {
+    match place {
+        Place::Position { vertex, .. } | Place::VertexProperty { vertex, .. } => looks_only(vertex),
+        Place::Coordinate(base, _) => reads_only(base),
+        _ => false,
+    }
+}
+
+fn looks_only(vertex: &Expr) -> bool {
+    match &vertex.kind {
+        ExprKind::Local(_) => true,
+        ExprKind::Any(ring) => looks_only_at(ring),
+        ExprKind::Next(x, ring) | ExprKind::Previous(x, ring) => {
+            matches!(&**x, Item::Vertex(x) if looks_only(x)) && looks_only_at(ring)
+        }
+        _ => false,
+    }
+}
+
+fn looks_only_at(ring: &Ring) -> bool {
+    matches!(ring, Ring::Of { vertex, .. } if looks_only(vertex))
 }

@@ -22,9 +22,11 @@ impl<'p> Translator<'_, 'p> {
     pub(super) fn source(&mut self, ring: &'p Ring) -> Translated<Source> {
         Ok(match ring {
             Ring::Of { vertex, old } => {
-                let v = self.vertex_not_null(vertex)?;
+                let v = self.vertex(vertex)?;
                 if *old {
                     self.held(v);
+                } else {
+                    self.not_null(v);
                 }
                 Source::Of { v, old: *old }
             }
@@ -74,14 +76,20 @@ impl<'p> Translator<'_, 'p> {
         }
     }
 
-    /// Fails unless a vertex has an old value.
+    /// Fails unless a vertex is not null and has an old value.
     pub(super) fn held(&mut self, v: Value) {
         if self.known.holds(Key::Held(v)) {
             return;
         }
         let wide = self.wide(v);
         let prefix = self.load_context(types::I64, context::OLD_PREFIX);
-        let beyond = self.b.ins().icmp(IntCC::UnsignedGreaterThan, wide, prefix);
+        let beyond = if self.known.holds(Key::NotNull(v)) {
+            self.b.ins().icmp(IntCC::UnsignedGreaterThan, wide, prefix)
+        } else {
+            // Null is beyond all, too.
+            let index = self.b.ins().iadd_imm_s(wide, -1);
+            self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, index, prefix)
+        };
         let ask = self.b.create_block();
         self.b.set_cold_block(ask);
         let next = self.b.create_block();
@@ -92,6 +100,7 @@ impl<'p> Translator<'_, 'p> {
             self.b.ins().brif(holds, next, &[], fail, &[]);
         }
         self.continue_in(next);
+        self.known.learn(Key::NotNull(v), Fact::Holds);
         self.known.learn(Key::Held(v), Fact::Holds);
     }
 

@@ -108,9 +108,6 @@ impl<'p> Translator<'_, 'p> {
         let place = self.b.ins().iadd(order, bytes);
         let members = self.regions.members;
         self.b.ins().store(members, v, place, 0);
-        let first = self.b.ins().load(types::I64, flags, set_address, context::SET_FIRST);
-        let first = self.b.ins().select(len, first, wide);
-        self.b.ins().store(flags, first, set_address, context::SET_FIRST);
         let len = self.b.ins().iadd_imm_s(len, 1);
         self.b.ins().store(flags, len, set_address, context::SET_LEN);
         self.b.ins().store(flags, wide, set_address, context::SET_LAST);

@@ -126,7 +126,10 @@ impl<'p> Translator<'_, 'p> {
             }
             Type::Value(ty) => {
                 let value = match init {
-                    Some(e) => self.expression(e)?,
+                    Some(e) => {
+                        self.prepare(e)?;
+                        self.expression(e)?
+                    }
                     None => self.constant(mesh::Value::zero(ty))?,
                 };
                 self.define_local(local, value)?;
