@@ -326,11 +326,11 @@ impl<'p> Translator<'_, 'p> {
             t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
             if !t.mutated(Mutation::ReplacesNothing) {
                 // Stores as wide as the loads that will follow, for narrow ones would hold those up.
-                let at = t.b.ins().ireduce(types::I32, at);
-                let [place, new] = [at, x].map(|x| t.b.ins().splat(types::I32X4, x));
+                let place = t.lanes_of_offset(at);
+                let new = t.b.ins().splat(types::I32X4, x);
                 for (k, lane) in lanes.into_iter().enumerate() {
                     let offsets = t.lane_offsets(4 * k as u32);
-                    let here = t.b.ins().icmp(IntCC::Equal, offsets, place);
+                    let here = t.b.ins().icmp(IntCC::Equal, place, offsets);
                     let result = t.b.ins().bitselect(here, new, lane);
                     t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
                 }
@@ -419,31 +419,29 @@ impl<'p> Translator<'_, 'p> {
             let head = t.head(v, false);
             let heads = t.regions.heads;
             let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
-            let bad = t.gap_or_edge_values(v);
-            t.leave_if(bad, slow);
-            let index = t.index_of(at);
+            t.leave_if_gap_or_edge_values(start, bytes, slow);
             let after = (side == Side::After) != t.mutated(Mutation::SplicesOnTheOtherSide);
             let at = match if after { Side::After } else { Side::Before } {
-                Side::After => t.b.ins().iadd_imm_s(index, 1),
-                Side::Before => t.b.ins().select(index, index, len),
+                Side::After => t.b.ins().iadd_imm_s(at, 4),
+                Side::Before => t.b.ins().select(at, at, bytes),
             };
             // Lanes behind `at` take what stands before them, `at` takes x.
             let mut shifted = vec![t.shift_lanes_up(lanes[0])];
             let before = t.b.ins().iadd_imm_s(start, 12);
             shifted.extend(t.lanes(before, width - 4, flags));
-            let end = t.b.ins().splat(types::I32X4, len);
-            let place = t.b.ins().splat(types::I32X4, at);
+            let end = t.b.ins().iadd_imm_s(bytes, 4);
+            let [place, end] = [at, end].map(|x| t.lanes_of_offset(x));
             let new = t.b.ins().splat(types::I32X4, x);
             let start = t.with_room(head, capacity, len, start, width, slow);
             for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
-                let numbers = t.lane_numbers(4 * k as u32);
-                let behind = t.b.ins().icmp(IntCC::SignedGreaterThan, numbers, place);
-                let within = t.b.ins().icmp(IntCC::SignedLessThanOrEqual, numbers, end);
-                let moved = t.b.ins().band(behind, within);
-                let result = t.b.ins().bitselect(moved, shifted, lane);
-                let here = t.b.ins().icmp(IntCC::Equal, numbers, place);
+                let offsets = t.lane_offsets(4 * k as u32);
+                let behind = t.b.ins().icmp(IntCC::SignedGreaterThan, offsets, place);
+                let result = t.b.ins().bitselect(behind, shifted, lane);
+                let here = t.b.ins().icmp(IntCC::Equal, place, offsets);
                 let result = t.b.ins().bitselect(here, new, result);
                 // Lanes behind the ring get back what they hold, for it is another's; behind one that moved is nobody's.
+                let within = t.b.ins().icmp(IntCC::SignedGreaterThan, end, offsets);
+                let result = t.b.ins().bitselect(within, result, lane);
                 t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
             }
             let len = t.b.ins().iadd_imm_s(len, 1);
@@ -494,17 +492,21 @@ impl<'p> Translator<'_, 'p> {
         self.slot_address(offset, false)
     }
 
-    fn gap_or_edge_values(&mut self, v: Value) -> Value {
-        let gap = self.has_gap(v, false);
+    /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings.
+    fn leave_if_gap_or_edge_values(&mut self, start: Value, bytes: Value, slow: Block) {
+        let end = self.b.ins().iadd(start, bytes);
+        let last = self.b.ins().load(types::I32, self.regions.slots, end, -4);
+        let gap = self.b.ins().icmp_imm_s(IntCC::Equal, last, 0);
         let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
         let edge_values = self.b.ins().ireduce(types::I8, edge_values);
-        self.b.ins().bor(gap, edge_values)
+        let bad = self.b.ins().bor(gap, edge_values);
+        self.leave_if(bad, slow);
     }
 
-    /// The index, i32, of what stands so many bytes behind the start.
-    fn index_of(&mut self, at: Value) -> Value {
-        let index = self.b.ins().ushr_imm_u(at, 2);
-        self.b.ins().ireduce(types::I32, index)
+    /// An offset in bytes in all lanes.
+    fn lanes_of_offset(&mut self, offset: Value) -> Value {
+        let offset = self.b.ins().ireduce(types::I32, offset);
+        self.b.ins().splat(types::I32X4, offset)
     }
 
     /// `first`, `first + 1`, …
@@ -556,23 +558,22 @@ impl<'p> Translator<'_, 'p> {
         self.by_width(len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
             let at = t.place_to_edit(&lanes, x, bytes, done);
-            let bad = t.gap_or_edge_values(v);
-            t.leave_if(bad, slow);
-            let index = t.index_of(at);
-            // Lanes from `index` on take what stands behind them; those behind the ring get back what they hold.
+            t.leave_if_gap_or_edge_values(start, bytes, slow);
+            // Lanes from `at` on take what stands behind them; those behind the ring get back what they hold.
             let behind = t.b.ins().iadd_imm_s(start, 4);
             let shifted = t.lanes(behind, width, flags);
-            let len = t.b.ins().iadd_imm_s(len, -1);
-            let place = t.b.ins().splat(types::I32X4, index);
-            let end = t.b.ins().splat(types::I32X4, len);
+            let before = t.b.ins().iadd_imm_s(at, -4);
+            let last = t.b.ins().iadd_imm_s(bytes, -4);
+            let [before, last] = [before, last].map(|x| t.lanes_of_offset(x));
             for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
-                let numbers = t.lane_numbers(4 * k as u32);
-                let from = t.b.ins().icmp(IntCC::SignedGreaterThanOrEqual, numbers, place);
-                let within = t.b.ins().icmp(IntCC::SignedLessThan, numbers, end);
-                let moved = t.b.ins().band(from, within);
-                let result = t.b.ins().bitselect(moved, shifted, lane);
+                let offsets = t.lane_offsets(4 * k as u32);
+                let from = t.b.ins().icmp(IntCC::SignedGreaterThan, offsets, before);
+                let result = t.b.ins().bitselect(from, shifted, lane);
+                let within = t.b.ins().icmp(IntCC::SignedGreaterThan, last, offsets);
+                let result = t.b.ins().bitselect(within, result, lane);
                 t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
             }
+            let len = t.b.ins().iadd_imm_s(len, -1);
             let head = t.head(v, false);
             let heads = t.regions.heads;
             if !t.mutated(Mutation::ErasesNothing) {

@@ -198,14 +198,14 @@ impl<'p> Translator<'_, 'p> {
 
     /// Rings up to these lengths are searched and edited in line, four slots at a time. A refinement that doubles
     /// valences before it halves them again meets the longest.
-    pub(super) fn widths(&self) -> [i64; 2] {
-        if self.unit.facts.fresh_capacity <= 4 { [4, 8] } else { [8, 16] }
+    pub(super) fn widths(&self) -> &'static [i64] {
+        if self.unit.facts.fresh_capacity <= 4 { &[4, 8] } else { &[8, 12, 16] }
     }
 
     /// For each width: goes on, in a block of its own, where a ring has at most so many slots but for `less`. Beyond the
     /// last it goes to `slow`.
     pub(super) fn by_width(&mut self, len: Value, less: i64, slow: Block, mut work: impl FnMut(&mut Self, i64)) {
-        for width in self.widths() {
+        for &width in self.widths() {
             let [here, longer] = [(); 2].map(|()| self.b.create_block());
             let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, len, width - less);
             self.b.ins().brif(long, longer, &[], here, &[]);

@@ -234,7 +234,7 @@ impl<'p> Translator<'_, 'p> {
 
     /// Copies a ring to where no edit reaches it: into the function's frame if it is short.
     fn copy_ring(&mut self, Bounds { start, len, flags }: Bounds) -> Bounds {
-        let longest = self.widths()[1] as u32;
+        let longest = self.widths().iter().fold(0, |a, &b| a.max(b)) as u32;
         let frame = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * longest, 4));
         let copy = self.b.ins().stack_addr(types::I64, frame, 0);
         let (ready, address) = self.block_with(&[types::I64]);
