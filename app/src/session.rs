@@ -7,12 +7,14 @@ mod files;
 mod generations;
 mod keeping;
 mod problem;
+mod reading;
+mod text;
 mod undo;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
@@ -22,21 +24,18 @@ use vv::mesh::Value;
 
 use crate::camera::Camera;
 use crate::command::{Command, Panel, Reload, TextAction, ThemeChoice};
-use crate::console::Console;
 use crate::document::{Document, MeshSource, ProgramText};
 use crate::render::Size;
 use crate::scene::{Sphere, Style};
 use crate::store::{Orphan, Store};
 use crate::watch::Watch;
-use crate::worker::{Frame, Reached, Request, Ticket, Worker};
+use crate::worker::{Frame, Request, Ticket, Worker};
 use crate::{evaluation, library};
 
 use files::{Chooser, is_program, is_project};
 pub use problem::{Place, Problem, Problems};
 pub use undo::changed;
 
-/// How long a text rests before it is compiled.
-const TYPING_PAUSE: Duration = Duration::from_millis(300);
 /// How long a computation may go on for something that is no longer wanted: what is nearly done is worth seeing, so that
 /// a slider shows something while it moves.
 const GRACE: Duration = Duration::from_millis(250);
@@ -359,41 +358,13 @@ impl Session {
             Command::Redo => self.redo(),
             Command::UndoText => self.undo_text(true),
             Command::RedoText => self.redo_text(true),
-            Command::Edit(text) => {
-                if self.document.program.text != text {
-                    self.document.program.text = text;
-                    self.text_was_edited();
-                    self.ask_after(TYPING_PAUSE);
-                }
-            }
-            Command::Tune(text) => {
-                if self.document.program.text != text {
-                    self.document.program.text = text;
-                    self.run_text();
-                    self.ask_now();
-                }
-            }
-            Command::Text(TextAction::Format) => self.format(),
-            Command::Text(action) => {
-                self.panels.program = true;
-                self.text_actions.push(action);
-            }
-            Command::SetReload(reload) => {
-                self.reload = reload;
-                self.text_was_edited();
-                self.ask_now();
-            }
-            Command::Fix(hint) => self.fix(&hint),
-            Command::Reveal(range) => {
-                self.panels.program = true;
-                self.reveal = Some(Reveal { range, focus: true });
-            }
-            Command::Run => {
-                self.run_text();
-                self.includes_revision += 1;
-                self.mesh_revision += 1;
-                self.ask_now();
-            }
+            Command::Edit(_)
+            | Command::Tune(_)
+            | Command::Text(_)
+            | Command::SetReload(_)
+            | Command::Fix(_)
+            | Command::Reveal(_)
+            | Command::Run => self.change_text(command),
 
             // A step that failed is tried again, not stepped over.
             Command::Step if self.stale.is_some() => self.ask_now(),
@@ -495,163 +466,6 @@ impl Session {
     /// Begins what commands have asked for, which [`Session::poll`] would do when it is called next.
     pub fn start(&mut self) {
         self.ask();
-    }
-
-    /// The last good result.
-    #[must_use]
-    pub fn frame(&self) -> Option<&Arc<Frame>> {
-        self.frame.as_ref()
-    }
-
-    /// Whether, and why, [`Session::frame`] is not what is wanted.
-    #[must_use]
-    pub fn stale(&self) -> Option<&Stale> {
-        self.stale.as_ref()
-    }
-
-    /// The generations that were reached, with what is known of them.
-    #[must_use]
-    pub fn reached(&self) -> BTreeMap<u64, Reached> {
-        self.worker.reached().clone()
-    }
-
-    /// The last of them.
-    #[must_use]
-    pub fn last_reached(&self) -> u64 {
-        self.worker.reached().last_key_value().map_or(0, |(generation, _)| *generation)
-    }
-
-    /// Seconds since the worker began, and the generation it is at; `None` if it rests.
-    #[must_use]
-    pub fn progress(&self) -> Option<(f64, Option<u64>)> {
-        self.running.as_ref().map(|r| (r.since.elapsed().as_secs_f64(), r.stepping))
-    }
-
-    /// The generation of [`Session::frame`], 0 if there is none.
-    #[must_use]
-    pub fn shown_generation(&self) -> u64 {
-        self.frame.as_ref().map_or(0, |frame| frame.request.generation)
-    }
-
-    /// Whether something is computed or about to be.
-    #[must_use]
-    pub fn is_busy(&self) -> bool {
-        self.running.is_some() || self.due.is_some()
-    }
-
-    /// Whether generations follow each other.
-    #[must_use]
-    pub fn is_playing(&self) -> bool {
-        self.playing.is_some()
-    }
-
-    /// The last program that compiled: its rules and parameters.
-    #[must_use]
-    pub fn program(&self) -> Option<&Arc<Program>> {
-        self.program.as_ref()
-    }
-
-    /// Whether there is a rule.
-    #[must_use]
-    pub fn can_step(&self) -> bool {
-        self.program.as_ref().is_some_and(|p| !p.rules.is_empty())
-    }
-
-    /// Name of the rule that is stepped.
-    #[must_use]
-    pub fn rule(&self) -> Option<&str> {
-        let program = self.program.as_ref()?;
-        let chosen = self.document.rule.as_deref().and_then(|name| program.rule(name));
-        program.function(chosen.or_else(|| program.default_rule())?).map(|f| f.name.as_str())
-    }
-
-    /// Whether the text in the editor is not the one that was run, and waits for somebody to say so.
-    #[must_use]
-    pub fn text_waits(&self) -> bool {
-        self.text_to_run != self.document.program.text
-    }
-
-    /// The texts that the last program that compiled includes.
-    #[must_use]
-    pub fn included_texts(&self) -> Vec<Arc<str>> {
-        let Some(program) = &self.program else { return Vec::new() };
-        program.sources.files().iter().skip(1).map(|file| Arc::clone(&file.text)).collect()
-    }
-
-    /// Whether some problem has a place in the text in the editor.
-    #[must_use]
-    pub fn has_problems_here(&self) -> bool {
-        self.problems.iter().any(|p| p.place.as_ref().is_some_and(|place| place.own))
-    }
-
-    /// What is wrong, in the order of the text.
-    #[must_use]
-    pub fn problems(&self) -> &Problems {
-        &self.problems
-    }
-
-    /// What the generations have printed.
-    pub fn console(&self) -> MutexGuard<'_, Console> {
-        self.worker.console()
-    }
-
-    /// The generation whose output is shown: the one that is computed, failed or was stopped, else the one shown.
-    #[must_use]
-    pub fn console_generation(&self) -> u64 {
-        match &self.running {
-            Some(running) => running.request.generation,
-            None => self.stopped.unwrap_or(self.document.generation),
-        }
-    }
-
-    /// What another program has written into the program's file while the text here has changes of its own.
-    #[must_use]
-    pub fn text_on_disk(&self) -> Option<&Arc<str>> {
-        self.text_on_disk.as_ref()
-    }
-
-    /// A short message.
-    #[must_use]
-    pub fn notice(&self) -> Option<(Severity, &str)> {
-        self.notice.as_ref().map(|(severity, text, _)| (*severity, text.as_str()))
-    }
-
-    /// Whether the window shall close.
-    #[must_use]
-    pub fn wants_quit(&self) -> bool {
-        self.wants_quit
-    }
-
-    /// From now on this text is run.
-    fn run_text(&mut self) {
-        self.text_to_run = Arc::clone(&self.document.program.text);
-    }
-
-    fn text_was_edited(&mut self) {
-        if self.reload == Reload::Typed {
-            self.run_text();
-        }
-    }
-
-    fn text_was_saved(&mut self) {
-        if self.reload != Reload::ByHand {
-            self.run_text();
-        }
-    }
-
-    fn format(&mut self) {
-        match vv::syntax::format(&self.document.program.text) {
-            Ok(text) if *text == *self.document.program.text => self.say(Severity::Note, "laid out already"),
-            Ok(text) => {
-                self.document.program.text = text.into();
-                self.text_was_edited();
-                self.ask_now();
-            }
-            Err(_) => {
-                let text = "only a program that can be read without doubt is laid out: see its errors";
-                self.say(Severity::Error, text);
-            }
-        }
     }
 
     fn change_style(&mut self, change: impl FnOnce(&mut Style)) {

@@ -182,18 +182,4 @@ impl Session {
         };
         self.stale = Some(Stale::Failed(message));
     }
-
-    pub(super) fn fix(&mut self, hint: &vv::diagnostic::Hint) {
-        let Some((span, replacement)) = &hint.edit else { return };
-        let text = &self.document.program.text;
-        let (start, end) = (span.start as usize, span.end as usize);
-        // The text may have changed since the diagnostic was made.
-        if span.file != vv::source::FileId::MAIN || text.get(start..end).is_none() {
-            return;
-        }
-        let text = format!("{}{replacement}{}", &text[..start], &text[end..]);
-        self.document.program.text = text.into();
-        self.text_was_edited();
-        self.ask_now();
-    }
 }
