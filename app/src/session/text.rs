@@ -40,19 +40,15 @@ impl Session {
     /// Carries out what concerns the text.
     pub(super) fn change_text(&mut self, command: Command) {
         match command {
-            Command::Edit(text) => {
-                if self.document.program.text != text {
-                    self.document.program.text = text;
-                    self.text_was_edited();
-                    self.ask_after(TYPING_PAUSE);
-                }
+            Command::Edit(text) if self.document.program.text != text => {
+                self.document.program.text = text;
+                self.text_was_edited();
+                self.ask_after(TYPING_PAUSE);
             }
-            Command::Tune(text) => {
-                if self.document.program.text != text {
-                    self.document.program.text = text;
-                    self.run_text();
-                    self.ask_now();
-                }
+            Command::Tune(text) if self.document.program.text != text => {
+                self.document.program.text = text;
+                self.run_text();
+                self.ask_now();
             }
             Command::Text(TextAction::Format) => self.format(),
             Command::Text(action) => {
