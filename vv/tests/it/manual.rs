@@ -1,5 +1,7 @@
 //! The manual's programs run as they stand, and print what stands under them.
 
+use std::collections::BTreeSet;
+
 use vv::engine::{Settings, run};
 use vv::mesh::{Mesh, close};
 use vv::stop::Stop;
@@ -64,6 +66,29 @@ fn every_program_that_ships_has_its_row_in_the_manual() {
     let files = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned());
     let missing: Vec<_> = files.filter(|file| table.matches(&format!("`{file}`")).count() != 1).collect();
     assert!(missing.is_empty(), "{missing:?}");
+}
+
+/// Pictures are small, and `.ci/pictures` makes them.
+#[test]
+fn every_program_that_can_be_stepped_has_its_picture_in_the_manual() {
+    let manual = include_str!("../../README.md");
+    let assets = format!("{}/../assets", env!("CARGO_MANIFEST_DIR"));
+    let stems = |folder: &str| -> BTreeSet<String> {
+        let files = std::fs::read_dir(format!("{assets}/{folder}")).unwrap().map(|entry| entry.unwrap().path());
+        files.map(|file| file.file_stem().unwrap().to_string_lossy().into_owned()).collect()
+    };
+    let is_rule = |line: &str| line.starts_with("void ") && line.ends_with("(mesh& S) {");
+    let stepped = stems("programs").into_iter().filter(|name| shipped(&format!("{name}.vv")).lines().any(is_rule));
+    let pictures = stems("pictures/programs");
+    assert_eq!(stepped.collect::<BTreeSet<_>>(), pictures);
+    for name in &pictures {
+        let file = format!("assets/pictures/programs/{name}.png");
+        assert!(
+            manual.lines().any(|row| row.starts_with(&format!("| `{name}.vv` |")) && row.contains(&file)),
+            "{name}"
+        );
+        assert!(std::fs::metadata(format!("{assets}/../{file}")).unwrap().len() <= 40_000, "{name}");
+    }
 }
 
 fn shipped(name: &str) -> String {
