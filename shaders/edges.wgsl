@@ -91,9 +91,9 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let reach = width * 0.5 + 1.0;
     let along = select(-reach, span + reach, at_end);
     let at = start + direction * along + vec2(-direction.y, direction.x) * side * reach;
-    let w = select(p.w, q.w, at_end) * max(1.0 - (1.5 * width + PULL * frame.scale) * frame.pixel, 0.5);
+    let depth = depth_nearer(select(p, q, at_end), 1.5 * width + PULL * frame.scale);
 
-    out.position = to_tile(vec4(at / (frame.size * 0.5), min(frame.near / w, 1.0), 1.0));
+    out.position = to_tile(vec4(at / (frame.size * 0.5), depth, 1.0));
     out.along = along;
     out.across = side * reach;
     out.length = span;

@@ -66,7 +66,7 @@ fn vertex_with_color(
 
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
-    let v = normalize(-in.view_position);
+    let v = select(normalize(-in.view_position), vec3(0.0, 0.0, 1.0), frame.parallel > 0.0);
     let outward = select(in.face_normal, in.normal, frame.smooth_shading != 0u);
     var n = normalize(select(-outward, outward, front));
     // Interpolated normals may point away from the eye near the outline: bend them back to just seen.

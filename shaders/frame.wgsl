@@ -1,7 +1,8 @@
 // What all passes share; put in front of each of them.
 //
 // Scene coordinates are of the size 1. View coordinates have the eye at zero and look along -z. Depth is reversed:
-// a point at distance w from the eye plane has depth near / w, 1 at the near plane and 0 at infinity.
+// a point at distance w from the eye plane has depth near / w, 1 at the near plane and 0 at infinity. Where lines of
+// sight are parallel all points have the w of the pivot, and depth grows evenly towards the eye.
 
 struct Frame {
     view_from_scene: mat4x4<f32>,
@@ -19,6 +20,7 @@ struct Frame {
     scale: f32, // pixels per point
     smooth_shading: u32,
     encode: u32, // the target does not turn light into sRGB
+    parallel: f32, // depth per length where lines of sight are parallel, else 0
 }
 
 // How the lines and points of one mesh look.
@@ -61,4 +63,12 @@ fn output(color: vec4<f32>) -> vec4<f32> {
 // From the whole picture to the tile that is drawn now.
 fn to_tile(clip: vec4<f32>) -> vec4<f32> {
     return vec4(clip.xy * frame.tile.xy + clip.w * frame.tile.zw, clip.zw);
+}
+
+// The depth of a point in clip coordinates that is drawn as if nearer by so many pixels' worth of depth.
+fn depth_nearer(p: vec4<f32>, pixels: f32) -> f32 {
+    if frame.parallel > 0.0 {
+        return min(p.z / p.w + pixels * frame.pixel * p.w * frame.parallel, 1.0);
+    }
+    return min(frame.near / (p.w * max(1.0 - pixels * frame.pixel, 0.5)), 1.0);
 }

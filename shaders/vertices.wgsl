@@ -44,8 +44,8 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let which = order[index % 6u];
     let corner = vec2(f32(which & 1u), f32(which >> 1u)) * 2.0 - 1.0;
     let offset = corner * (size * 0.5 + 1.0);
-    let w = p.w * max(1.0 - (size * 0.5 + 1.0) * frame.pixel, 0.5);
-    out.position = to_tile(vec4(p.xy / p.w + offset / (frame.size * 0.5), min(frame.near / w, 1.0), 1.0));
+    let depth = depth_nearer(p, size * 0.5 + 1.0);
+    out.position = to_tile(vec4(p.xy / p.w + offset / (frame.size * 0.5), depth, 1.0));
     out.offset = offset;
     out.radius = size * 0.5;
     out.opacity = opacity;

@@ -1,7 +1,15 @@
-//! The viewpoint: an arcball around a pivot. Pure functions that give a new camera.
+//! The viewpoint: an eye that turns around a pivot. Pure functions that give a new camera.
+//!
+//! An orthographic camera has its lines of sight parallel. It shows the plane of the pivot as large as a perspective one
+//! at the same distance and opening angle does, and hides nothing for being behind the eye.
 //!
 //! Places in the picture are given as `DVec2`: zero in its centre, x right, y up, ±1 at its upper and lower edge (so
 //! x reaches ±aspect); [`picture_point`] makes them from pixels.
+
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
@@ -18,12 +26,87 @@ pub struct Camera {
     pub distance: f64,
     /// Vertical opening angle in radians.
     pub field_of_view: f64,
+    /// Whether lines of sight are parallel.
+    #[serde(default)]
+    pub orthographic: bool,
+}
+
+/// Which axis of the world points up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+pub enum Up {
+    /// y, as in most files of meshes: the front is seen from +z.
+    #[default]
+    Y,
+    /// z, as in drawings of engineers: the front is seen from −y.
+    Z,
+}
+
+/// From where one looks at things.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// With x to the right.
+    Front,
+    /// With x to the left.
+    Back,
+    /// From −x.
+    Left,
+    /// From +x.
+    Right,
+    /// From above, the front below.
+    Top,
+    /// From below, the front above.
+    Bottom,
+    /// From the front, right and above, so that all axes are seen equally short.
+    Isometric,
+}
+
+impl Side {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Front, Self::Back, Self::Left, Self::Right, Self::Top, Self::Bottom, Self::Isometric];
+
+    /// Around the up axis and above the horizon, in radians.
+    fn angles(self) -> (f64, f64) {
+        match self {
+            Self::Front => (0.0, 0.0),
+            Self::Back => (2.0 * FRAC_PI_2, 0.0),
+            Self::Left => (-FRAC_PI_2, 0.0),
+            Self::Right => (FRAC_PI_2, 0.0),
+            Self::Top => (0.0, FRAC_PI_2),
+            Self::Bottom => (0.0, -FRAC_PI_2),
+            Self::Isometric => (FRAC_PI_4, std::f64::consts::FRAC_1_SQRT_2.atan()),
+        }
+    }
+}
+
+impl Up {
+    /// As a direction.
+    #[must_use]
+    pub fn axis(self) -> DVec3 {
+        match self {
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+        }
+    }
+
+    /// How the front is seen.
+    fn front(self) -> DQuat {
+        match self {
+            Self::Y => DQuat::IDENTITY,
+            Self::Z => DQuat::from_rotation_x(FRAC_PI_2),
+        }
+    }
+
+    /// How things are seen from the angle `around` the axis, counted from the front to the right, and `above` the horizon.
+    fn seen_from(self, around: f64, above: f64) -> DQuat {
+        (self.front() * DQuat::from_rotation_y(around) * DQuat::from_rotation_x(-above)).normalize()
+    }
 }
 
 /// A half-line from the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// The eye.
+    /// The eye; that of an orthographic camera is far away.
     pub origin: DVec3,
     /// Of length one.
     pub direction: DVec3,
@@ -39,6 +122,9 @@ const MARGIN: f64 = 1.1;
 const NEAREST: f64 = 1e-4;
 const FARTHEST: f64 = 1e4;
 
+/// Rays of orthographic cameras begin this many times as far as the eye, where nothing is.
+const BEYOND: f64 = 1e5;
+
 /// The place of a pixel position (from the upper left corner, y down) in a picture of `size` pixels.
 #[must_use]
 pub fn picture_point(pixel: DVec2, size: DVec2) -> DVec2 {
@@ -51,7 +137,8 @@ impl Camera {
     #[must_use]
     pub fn standard(bounds: Sphere, aspect: f64) -> Self {
         let world_from_view = DQuat::from_rotation_y(0.6) * DQuat::from_rotation_x(-0.45);
-        Self { pivot: bounds.center, world_from_view, distance: 1.0, field_of_view: FIELD_OF_VIEW }.fit(bounds, aspect)
+        Self { pivot: bounds.center, world_from_view, distance: 1.0, field_of_view: FIELD_OF_VIEW, orthographic: false }
+            .fit(bounds, aspect)
     }
 
     /// Whether it is anywhere and looks at something: what was computed always is, what was read may not.
@@ -69,15 +156,16 @@ impl Camera {
     #[must_use]
     pub fn fit(self, bounds: Sphere, aspect: f64) -> Self {
         let half = (self.field_of_view / 2.0).tan();
-        let narrower = (half * aspect.clamp(1e-3, 1.0)).atan();
-        Self { pivot: bounds.center, distance: MARGIN * radius(bounds) / narrower.sin(), ..self }
+        let narrower = half * aspect.clamp(1e-3, 1.0);
+        let beside = if self.orthographic { narrower } else { narrower.atan().sin() };
+        Self { pivot: bounds.center, distance: MARGIN * radius(bounds) / beside, ..self }
     }
 
     /// The four world directions that decide what [`Camera::fit_points`] gives: it needs no more points than the one that
     /// lies farthest in each.
     #[must_use]
     pub fn decisive_directions(&self, aspect: f64) -> [DVec3; 4] {
-        let slope = self.slope(aspect);
+        let slope = if self.orthographic { DVec2::ZERO } else { self.slope(aspect) };
         [(1.0, 0.0, slope.x), (-1.0, 0.0, slope.x), (0.0, 1.0, slope.y), (0.0, -1.0, slope.y)]
             .map(|direction| self.world_from_view * DVec3::from(direction))
     }
@@ -86,7 +174,8 @@ impl Camera {
     /// the height of the picture.
     #[must_use]
     pub fn spread(&self, beside: f64) -> f64 {
-        (self.field_of_view / 2.0).tan() * beside
+        let narrowing = if self.orthographic { BEYOND } else { 1.0 };
+        (self.field_of_view / 2.0).tan() * beside / narrowing
     }
 
     /// Looks from the same side so that these points just fit, with a margin: closer than [`Camera::fit`] where they fill
@@ -94,7 +183,8 @@ impl Camera {
     ///
     /// A point (x, y, z) in view directions is seen from an eye (a, b, c) if `|x − a| ≤ s (c − z)`, s the slope of the
     /// sides, and so with y. The nearest such eye has `a = (r − l)/2` and `c = (r + l)/2s`, where `r = max(x + s z)` and
-    /// `l = max(−x + s z)`; of the two c that x and y ask for, the greater one holds.
+    /// `l = max(−x + s z)`; of the two c that x and y ask for, the greater one holds. Parallel lines of sight do not care
+    /// for z.
     #[must_use]
     pub fn fit_points(self, points: impl IntoIterator<Item = DVec3>, bounds: Sphere, aspect: f64) -> Self {
         let slope = self.slope(aspect);
@@ -102,8 +192,9 @@ impl Camera {
         let (mut positive, mut negative) = (DVec2::NEG_INFINITY, DVec2::NEG_INFINITY);
         for point in points {
             let p = view_from_world * (point - bounds.center);
-            positive = positive.max(p.truncate() + slope * p.z);
-            negative = negative.max(slope * p.z - p.truncate());
+            let nearer = if self.orthographic { DVec2::ZERO } else { slope * p.z };
+            positive = positive.max(nearer + p.truncate());
+            negative = negative.max(nearer - p.truncate());
         }
         let distance = ((positive + negative) / (2.0 * slope)).max_element();
         if !(distance > radius(bounds) * NEAREST && distance.is_finite()) {
@@ -140,6 +231,62 @@ impl Camera {
         }
         let turn = DQuat::from_rotation_arc(on_ball(from), on_ball(to));
         Self { world_from_view: (self.world_from_view * turn.conjugate()).normalize(), ..self }
+    }
+
+    /// The turntable: turns around the up axis as the pointer goes sideways and tilts as it goes up or down, half a turn
+    /// for the height of the picture. The up axis stays upright in the picture, never upside down.
+    #[must_use]
+    pub fn turntable(self, from: DVec2, to: DVec2, up: Up) -> Self {
+        let angles = (to - from) * FRAC_PI_2;
+        if angles.is_finite() { self.turned(-angles.x, -angles.y, up) } else { self }
+    }
+
+    /// Goes around the up axis, to the right, and up, by angles in radians; stands upright afterwards.
+    #[must_use]
+    pub fn turned(self, around: f64, above: f64, up: Up) -> Self {
+        let (from_around, from_above) = self.angles(up);
+        let above = (from_above + above).clamp(-FRAC_PI_2, FRAC_PI_2);
+        Self { world_from_view: up.seen_from(from_around + around, above), ..self }
+    }
+
+    /// Where the eye is around the up axis and above the horizon, in radians.
+    fn angles(self, up: Up) -> (f64, f64) {
+        let turn = up.front().conjugate() * self.world_from_view;
+        let eye = turn * DVec3::Z;
+        let above = eye.y.clamp(-1.0, 1.0).asin();
+        // Seen from straight above or below, the upper edge of the picture tells where one stands.
+        let level = if eye.x.hypot(eye.z) > 1e-6 { eye } else { turn * DVec3::NEG_Y * eye.y.signum() };
+        (level.x.atan2(level.z), above)
+    }
+
+    /// Looks at the same point from a side.
+    #[must_use]
+    pub fn from_side(self, side: Side, up: Up) -> Self {
+        let (around, above) = side.angles();
+        Self { world_from_view: up.seen_from(around, above), ..self }
+    }
+
+    /// The side it looks from, if it is one.
+    #[must_use]
+    pub fn side(&self, up: Up) -> Option<Side> {
+        let same = |side: &Side| self.from_side(*side, up).world_from_view.angle_between(self.world_from_view) < 1e-3;
+        Side::ALL.into_iter().find(same)
+    }
+
+    /// On the way to another one: 0 is here, 1 there.
+    #[must_use]
+    pub fn on_the_way(self, to: Self, t: f64) -> Self {
+        if t >= 1.0 {
+            return to;
+        }
+        let mix = |a: f64, b: f64| a * (b / a).powf(t); // as sizes are seen
+        Self {
+            pivot: self.pivot.lerp(to.pivot, t),
+            world_from_view: self.world_from_view.slerp(to.world_from_view, t).normalize(),
+            distance: mix(self.distance, to.distance),
+            field_of_view: mix(self.field_of_view, to.field_of_view),
+            orthographic: to.orthographic,
+        }
     }
 
     /// Shifts the view so that the point of the pivot's plane under `from` comes to lie under `to`.
@@ -180,9 +327,29 @@ impl Camera {
 
     /// View to clip coordinates of a picture of this width over height: perspective with the far plane at infinity and
     /// depth reversed (1 at the near plane, 0 at infinity), which spreads the precision of floating point evenly.
+    ///
+    /// Orthographic cameras give every point the weight of the pivot, and depths between 1 and 0 far before the eye and
+    /// far behind the pivot; who knows where things are asks [`Camera::clip_from_view_within`].
     #[must_use]
     pub fn clip_from_view(&self, aspect: f64) -> DMat4 {
+        self.clip_from_view_within(aspect, Sphere { center: self.pivot, radius: self.distance * FARTHEST })
+    }
+
+    /// The same, with the depths of orthographic cameras spread over a ball that holds everything.
+    #[must_use]
+    pub fn clip_from_view_within(&self, aspect: f64, bounds: Sphere) -> DMat4 {
         let focal = 1.0 / (self.field_of_view / 2.0).tan();
+        if self.orthographic {
+            let middle = self.view_from_world().transform_point3(bounds.center).z;
+            let depth = self.distance * self.depth_per_length(bounds);
+            let shift = self.distance / 2.0 - depth * middle;
+            return DMat4::from_cols(
+                DVec4::new(focal / aspect, 0.0, 0.0, 0.0),
+                DVec4::new(0.0, focal, 0.0, 0.0),
+                DVec4::new(0.0, 0.0, depth, 0.0),
+                DVec4::new(0.0, 0.0, shift, self.distance),
+            );
+        }
         DMat4::from_cols(
             DVec4::new(focal / aspect, 0.0, 0.0, 0.0),
             DVec4::new(0.0, focal, 0.0, 0.0),
@@ -191,7 +358,13 @@ impl Camera {
         )
     }
 
-    /// Nothing nearer to the eye is seen.
+    /// By how much depth grows towards the eye of an orthographic camera; 0 of a perspective one, where that depends.
+    #[must_use]
+    pub fn depth_per_length(&self, bounds: Sphere) -> f64 {
+        if self.orthographic { 0.49 / radius(bounds) } else { 0.0 }
+    }
+
+    /// Nothing nearer to the eye of a perspective camera is seen.
     #[must_use]
     pub fn near(&self) -> f64 {
         self.distance * 1e-3
@@ -200,7 +373,12 @@ impl Camera {
     /// What lies under a place in the picture.
     #[must_use]
     pub fn ray(&self, at: DVec2) -> Ray {
-        let direction = DVec3::new(0.0, 0.0, -self.distance) + (self.half_height() * at).extend(0.0);
+        let beside = (self.half_height() * at).extend(0.0);
+        if self.orthographic {
+            let origin = self.pivot + self.world_from_view * (beside + DVec3::new(0.0, 0.0, BEYOND * self.distance));
+            return Ray { origin, direction: self.world_from_view * DVec3::NEG_Z };
+        }
+        let direction = DVec3::new(0.0, 0.0, -self.distance) + beside;
         Ray { origin: self.eye(), direction: (self.world_from_view * direction).normalize() }
     }
 
@@ -213,173 +391,4 @@ impl Camera {
 /// Of what is looked at; something for a single point, which has no size of its own.
 fn radius(bounds: Sphere) -> f64 {
     if bounds.radius > 0.0 { bounds.radius } else { bounds.center.length().max(1.0) * 1e-3 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const BOUNDS: Sphere = Sphere { center: DVec3::new(3.0, -2.0, 7.0), radius: 2.5 };
-
-    /// Where a world point is seen in a picture twice as wide as high.
-    fn seen(camera: &Camera, p: DVec3) -> DVec2 {
-        let clip = camera.clip_from_view(2.0) * camera.view_from_world() * p.extend(1.0);
-        assert!(clip.w > 0.0, "behind the eye");
-        DVec2::new(clip.x * 2.0, clip.y) / clip.w
-    }
-
-    #[track_caller]
-    fn check_near<T: Into<DVec3>>(a: T, b: T) {
-        let (a, b) = (a.into(), b.into());
-        assert!(a.distance(b) < 1e-9, "{a} is not {b}");
-    }
-
-    fn camera() -> Camera {
-        Camera::standard(BOUNDS, 2.0)
-    }
-
-    #[test]
-    fn pixels_become_places_in_the_picture() {
-        let size = DVec2::new(400.0, 200.0);
-        assert_eq!(picture_point(DVec2::new(200.0, 100.0), size), DVec2::ZERO);
-        assert_eq!(picture_point(DVec2::ZERO, size), DVec2::new(-2.0, 1.0));
-    }
-
-    #[test]
-    fn the_pivot_is_seen_in_the_centre_and_up_is_up() {
-        let camera = camera();
-        check_near(seen(&camera, BOUNDS.center).extend(0.0), DVec3::ZERO);
-        assert!(seen(&camera, BOUNDS.center + DVec3::Y).y > 0.1);
-        assert!(camera.eye().y > BOUNDS.center.y, "from above");
-        check_near(camera.view_from_world().transform_point3(camera.eye()), DVec3::ZERO);
-    }
-
-    #[test]
-    fn a_fitted_ball_fills_the_narrower_side_but_for_the_margin() {
-        for aspect in [0.4, 1.0, 2.0] {
-            let camera = Camera::standard(BOUNDS, aspect);
-            // The rim of the ball as seen from the eye.
-            let sine = BOUNDS.radius / camera.distance;
-            let rim = sine / (1.0 - sine * sine).sqrt() / (camera.field_of_view / 2.0).tan();
-            assert!((0.9..1.0).contains(&(rim / aspect.min(1.0))), "{rim} of {aspect}");
-        }
-    }
-
-    #[test]
-    fn fitted_points_touch_the_margin_on_two_opposite_sides() {
-        let points = [DVec3::ZERO, DVec3::X, DVec3::new(3.0, 1.0, -2.0), DVec3::new(0.5, 4.0, 1.0), DVec3::NEG_Z];
-        for aspect in [0.3, 1.0, 2.0, 5.0] {
-            let camera = camera().fit_points(points, BOUNDS, aspect);
-            let places = points.map(|p| {
-                let clip = camera.clip_from_view(aspect) * camera.view_from_world() * p.extend(1.0);
-                DVec2::new(clip.x, clip.y) / clip.w * MARGIN
-            });
-            let high = places.into_iter().fold(DVec2::NEG_INFINITY, DVec2::max);
-            let low = places.into_iter().fold(DVec2::INFINITY, DVec2::min);
-            let touches = |low: f64, high: f64| (low + 1.0).abs() < 1e-9 && (high - 1.0).abs() < 1e-9;
-            assert!(high.max_element() < 1.0 + 1e-9 && low.min_element() > -1.0 - 1e-9, "{low} {high}");
-            assert!(touches(low.x, high.x) || touches(low.y, high.y), "{low} {high}");
-        }
-    }
-
-    #[test]
-    fn without_points_to_fit_the_ball_is() {
-        assert_eq!(camera().fit_points([], BOUNDS, 2.0), camera());
-        let one = Sphere { center: DVec3::X, radius: 0.0 };
-        assert_eq!(camera().fit_points([DVec3::X], one, 2.0), camera().fit(one, 2.0));
-    }
-
-    #[test]
-    fn a_point_is_fitted_too() {
-        let camera = Camera::standard(Sphere { center: DVec3::X, radius: 0.0 }, 1.0);
-        assert!(camera.distance > 0.0 && camera.distance.is_finite());
-    }
-
-    #[test]
-    fn orbiting_keeps_pivot_and_distance_and_brings_the_front_along() {
-        let front = camera().pivot + camera().world_from_view * DVec3::new(0.0, 0.0, 1.0);
-        let turned = camera().orbit(DVec2::ZERO, DVec2::new(0.3, 0.1));
-        assert_eq!(turned.pivot, camera().pivot);
-        assert_eq!(turned.distance, camera().distance);
-        let at = seen(&turned, front);
-        assert!(at.x > 0.0 && at.y > 0.0, "the front followed the pointer: {at}");
-        assert!((at.x / at.y - 3.0).abs() < 0.01, "in its direction");
-    }
-
-    #[test]
-    fn orbiting_back_undoes_and_standing_still_does_nothing() {
-        let (a, b) = (DVec2::new(0.2, -0.5), DVec2::new(-1.7, 0.9));
-        let turned = camera().orbit(a, b).orbit(b, a);
-        assert!(turned.world_from_view.angle_between(camera().world_from_view) < 1e-7);
-        assert!(camera().orbit(b, b).world_from_view.angle_between(camera().world_from_view) < 1e-7);
-    }
-
-    #[test]
-    fn the_arcball_is_smooth_where_the_ball_ends() {
-        let angle = |d: f64| {
-            let turned = camera().orbit(DVec2::ZERO, DVec2::new(d, 0.0));
-            turned.world_from_view.angle_between(camera().world_from_view)
-        };
-        let (end, step) = (std::f64::consts::FRAC_1_SQRT_2, 1e-4);
-        let (before, after) = (angle(end) - angle(end - step), angle(end + step) - angle(end));
-        assert!((before / after - 1.0).abs() < 1e-2, "{before} {after}");
-        assert!(angle(30.0) > angle(3.0) && angle(30.0) < std::f64::consts::FRAC_PI_2);
-    }
-
-    #[test]
-    fn panning_moves_what_is_under_the_pointer_with_it() {
-        let (from, to) = (DVec2::new(0.5, 0.25), DVec2::new(-0.75, 0.5));
-        let ray = camera().ray(from);
-        let under =
-            ray.origin + ray.direction * (camera().distance / ray.direction.dot(camera().ray(DVec2::ZERO).direction));
-        check_near(seen(&camera().pan(from, to), under).extend(0.0), to.extend(0.0));
-    }
-
-    #[test]
-    fn zooming_keeps_what_is_under_the_pointer_there() {
-        let cursor = DVec2::new(1.2, -0.6);
-        let ray = camera().ray(cursor);
-        let under =
-            ray.origin + ray.direction * (camera().distance / ray.direction.dot(camera().ray(DVec2::ZERO).direction));
-        for factor in [0.01, 0.5, 1.0, 3.0] {
-            let zoomed = camera().zoom(cursor, factor, BOUNDS);
-            assert!((zoomed.distance / camera().distance / factor - 1.0).abs() < 1e-12);
-            check_near(seen(&zoomed, under).extend(0.0), cursor.extend(0.0));
-        }
-    }
-
-    #[test]
-    fn zooming_ends_near_and_far() {
-        let far = (0..1000).fold(camera(), |c, _| c.zoom(DVec2::ONE, 2.0, BOUNDS));
-        let near = (0..1000).fold(camera(), |c, _| c.zoom(DVec2::ONE, 0.5, BOUNDS));
-        assert!((far.distance - FARTHEST * 2.5).abs() < 1e-6 && far.pivot.is_finite());
-        assert!((near.distance - NEAREST * 2.5).abs() < 1e-12 && near.pivot.is_finite());
-        assert_eq!(camera().zoom(DVec2::ONE, f64::NAN, BOUNDS), camera());
-    }
-
-    #[test]
-    fn depth_is_one_at_the_near_plane_and_falls_to_zero() {
-        let depth = |d: f64| {
-            let clip = camera().clip_from_view(1.0) * DVec4::new(0.0, 0.0, -d, 1.0);
-            clip.z / clip.w
-        };
-        assert!((depth(camera().near()) - 1.0).abs() < 1e-12);
-        assert!(depth(1.0) > depth(2.0) && depth(1e9) > 0.0);
-    }
-
-    #[test]
-    fn a_ray_goes_through_what_is_seen_there() {
-        let at = DVec2::new(-1.1, 0.4);
-        let ray = camera().ray(at);
-        check_near(seen(&camera(), ray.origin + 5.0 * ray.direction).extend(0.0), at.extend(0.0));
-        assert!((ray.direction.length() - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_camera_survives_being_copied_as_text() {
-        let text = serde_json::to_string(&camera()).unwrap();
-        let copy: Camera = serde_json::from_str(&text).unwrap();
-        check_near(copy.eye(), camera().eye());
-        check_near(copy.ray(DVec2::ONE).direction, camera().ray(DVec2::ONE).direction);
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::{DMat4, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
 
 use super::Size;
 use super::palette::{linear, palette};
@@ -54,7 +54,8 @@ pub(super) struct Frame {
     scale: f32,
     smooth_shading: u32,
     encode: u32,
-    padding: [u32; 2],
+    parallel: f32,
+    padding: u32,
 }
 
 /// `Layer` of `shaders/frame.wgsl`.
@@ -98,8 +99,16 @@ pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile
     let to_view = DMat4::from_quat(camera.world_from_view.conjugate());
     let view_from_scene = to_view * DMat4::from_translation(-eye);
     let near = camera.near() / scene.unit;
-    let mut clip_from_view = camera.clip_from_view(tile.picture.aspect());
-    clip_from_view.w_axis.z = near;
+    let bounds = scene.bounds(&Style { control: true, ..*style });
+    let mut clip_from_view = camera.clip_from_view_within(tile.picture.aspect(), bounds);
+    // From world units to those of the scene.
+    if camera.orthographic {
+        clip_from_view.w_axis /= scene.unit;
+    } else {
+        clip_from_view.w_axis.z = near;
+    }
+    // Whose lines of sight are parallel is infinitely far away.
+    let seen_from = if camera.orthographic { camera.world_from_view * DVec3::new(0.0, 0.0, 1e6) } else { eye };
     Frame {
         view_from_scene: view_from_scene.as_mat4(),
         clip_from_scene: (clip_from_view * view_from_scene).as_mat4(),
@@ -108,14 +117,15 @@ pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile
         background_bottom: linear(palette.background_bottom),
         front: linear(palette.front),
         back: linear(palette.back),
-        eye: eye.as_vec3(),
+        eye: seen_from.as_vec3(),
         near: near as f32,
         size: Vec2::new(tile.picture.width.max(1) as f32, tile.picture.height.max(1) as f32),
         pixel: pixel(camera, tile.picture) as f32,
         scale: tile.picture.scale,
         smooth_shading: u32::from(style.smooth),
         encode: u32::from(encode),
-        padding: [0; 2],
+        parallel: (camera.depth_per_length(bounds) * scene.unit) as f32,
+        padding: 0,
     }
 }
 
@@ -207,7 +217,10 @@ pub(super) fn layer_draws(scene: &Uploaded, camera: &Camera, style: &Style, pict
 /// Edges before this one would all come out too short to be drawn: spares the GPU millions of them.
 fn first_edge(scene: &Uploaded, part: &PartBuffers, camera: &Camera, style: &Style, picture: Size) -> u32 {
     let bounds = scene.bounds(&Style { control: true, ..*style });
-    let nearest = (camera.eye().distance(bounds.center) - bounds.radius).max(camera.near()) / scene.unit;
+    let nearest = match camera.orthographic {
+        true => camera.distance,
+        false => (camera.eye().distance(bounds.center) - bounds.radius).max(camera.near()),
+    } / scene.unit;
     let longest = f64::from(part.longest_inner_edge) / (nearest * pixel(camera, picture) * f64::from(picture.scale));
     if longest < GONE_AT { part.inner_edge_count } else { 0 }
 }
