@@ -12,7 +12,7 @@ use image::{Rgba, RgbaImage};
 use crate::fixtures::{
     ball, box_without_lid, cube, dangling, hills, letter, lonely, mesh, octahedron, scene, scene_with_control, torus,
 };
-use app::camera::{self, Camera};
+use app::camera::{self, Camera, Side, Up};
 use app::compare::pictures::{PictureDifference, compare_pictures};
 use app::render::{Headless, RenderError, Size};
 use app::scene::{Scene, Style, Theme, pack_color};
@@ -253,6 +253,27 @@ fn a_camera_inside_the_mesh_sees_it_cut_by_the_near_plane_only() {
     camera.distance = 0.2;
     let picture = headless().image(&scene, &camera, &style, SIZE).unwrap();
     compare("inside", &picture).unwrap();
+}
+
+#[test]
+fn along_parallel_lines_the_picture_shows_no_vanishing_point() {
+    let scene = scene_with_control(&torus(24, 12), &cube());
+    let style = Style { control: true, vertices: true, ..Style::default() };
+    let mut camera = standard(&scene, &style);
+    camera.orthographic = true;
+    let camera = scene.fit(camera.from_side(Side::Isometric, Up::Y), &style, SIZE.aspect());
+    let picture = headless().image(&scene, &camera, &style, SIZE).unwrap();
+    compare("orthographic", &picture).unwrap();
+}
+
+#[test]
+fn an_orthographic_camera_cuts_nothing_off_however_near() {
+    let style = Style { edges: false, transparent: true, ..Style::default() };
+    let scene = scene(&cube());
+    let side = Camera { orthographic: true, ..standard(&scene, &style) }.from_side(Side::Front, Up::Y);
+    let near = Camera { distance: 0.01, ..side };
+    let picture = headless().image(&scene, &near, &style, SIZE).unwrap();
+    assert!(picture.pixels().all(|p| p.0[3] == 255), "the front face fills the picture");
 }
 
 #[test]
