@@ -428,6 +428,8 @@ impl<'t> Layout<'t> {
             (OpenBrace, CloseBrace) => !self.is_list[b],
             (OpenBrace, _) => !self.is_list[a],
             (_, CloseBrace) => !self.is_list[b],
+            // What a loop is about begins here: this is no call.
+            (Word, OpenParen) if self.outline.places.contains_key(&self.tokens[b].start) => true,
             (Word, OpenParen) => {
                 let word = self.word(a);
                 let called = self.roles[a] != Some(Role::Algebra)

@@ -63,8 +63,8 @@ const ORACLES: &[Oracle] = &[
     Oracle {
         but: Some(Otherwise {
             why: "OpenMesh moves a boundary vertex by 1/6 2/3 1/6, to where it would end, and that at each step",
-            ours: "p$pos / 2.0 + (a$pos + b$pos) / 4.0",
-            theirs: "(p$pos + a$pos + b$pos) / 3.0",
+            ours: "3.0/4.0 * p$pos + 1.0/8.0 * (",
+            theirs: "2.0/3.0 * p$pos + 1.0/6.0 * (",
         }),
         ..oracle("openmesh/catmull-clark", "catmull-clark.vv")
     },

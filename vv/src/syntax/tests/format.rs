@@ -69,6 +69,7 @@ fn spaces_stand_where_signs_need_them() {
     inside("(p | q) $ sharpness/=2;", "(p|q)$sharpness /= 2;");
     inside("x$pos=` p $pos +`( nextto q in `p )$pos . x;", "x$pos = `p$pos + `(nextto q in `p)$pos.x;");
     inside("for(int i=0;i<n;++i) print( i,\"  a\" );", "for (int i = 0; i < n; ++i) print(i, \"  a\");");
+    inside("forall x in p(p|x)$sharpness=1;", "forall x in p (p|x)$sharpness = 1;");
     inside("return(a)?b:! c;", "return (a) ? b : !c;");
     inside("make{ p,q }nb_of x;make {} nb_of y;{}", "make {p, q} nb_of x; make {} nb_of y; { }");
     inside("vec v=vec (1,2,3);int i=int(2.5);", "vec v = vec(1, 2, 3); int i = int(2.5);");

@@ -74,7 +74,7 @@ fn faults_in_midedge_are_found() {
 
 #[test]
 fn faults_in_catmull_clark_are_found() {
-    let faults = [("(n - 3.0) * n", "(n - 2.0) * n"), ("/ 4.0", "/ 5.0"), ("2.0 * x$pos", "3.0 * x$pos")];
+    let faults = [("(n - 2.0) * n", "(n - 3.0) * n"), ("/ 4.0", "/ 5.0"), ("s += f$pos", "s += 2.0 * f$pos")];
     check("catmull-clark.vv", "catmull_clark", Around::Quads, published::catmull_clark, &faults);
 }
 
