@@ -4,6 +4,7 @@ mod editor;
 mod keeping;
 mod palette;
 mod timeline;
+mod view;
 
 use std::path::Path;
 use std::time::{Duration, Instant};
