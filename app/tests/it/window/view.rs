@@ -223,7 +223,7 @@ fn the_turntable_stays_upright() {
 fn two_fingers_turn_and_with_shift_they_shift() {
     let mut window = octahedron();
     let middle = window.get_by_label("Viewport").rect().center();
-    let mut scroll = |window: &mut Harness<'static, App>, modifiers| {
+    let scroll = |window: &mut Harness<'static, App>, modifiers| {
         let before = camera(window);
         window.hover_at(middle);
         let event = egui::Event::MouseWheel {
