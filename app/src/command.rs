@@ -4,9 +4,9 @@
 //! carries them out. A new command is a variant here, a line in [`Command::describe`], a place in [`MENUS`], and its
 //! effect there.
 
+mod inspecting;
 mod matching;
 mod menus;
-mod view;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -20,9 +20,9 @@ use crate::document::MeshSource;
 use crate::scene::Style;
 use crate::session::{Purpose, Session};
 
+pub use inspecting::Inspect;
 pub use matching::{Match, find};
-pub use menus::{MENUS, Menu, outer, with_keys};
-pub use view::{Toward, ViewAction};
+pub use menus::{MENUS, Menu, with_keys};
 
 /// A wish.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,6 +111,9 @@ pub enum Command {
     /// Forgets what was kept under a name.
     ForgetParams(String),
 
+    /// To look closer.
+    Inspect(Inspect),
+
     /// How it is drawn.
     SetStyle(Style),
     /// Filled faces on and off.
@@ -125,8 +128,6 @@ pub enum Command {
     Control,
     /// From where it is seen.
     SetCamera(Camera),
-    /// Something to do with the camera.
-    View(ViewAction),
     /// All of the mesh in sight.
     Fit,
     /// The picture to the clipboard.
@@ -288,7 +289,7 @@ impl Command {
             Self::Undo => ("Undo", "take the last change back", const { &[ctrl(Key::Z)] }),
             Self::Redo => ("Redo", "do again what was undone", const { &[ctrl_shift(Key::Z), ctrl(Key::Y)] }),
             Self::Text(action) => return action.describe(),
-            Self::View(action) => return action.describe(),
+            Self::Inspect(inspect) => return inspect.describe(),
             Self::SetReload(Reload::Typed) => ("Run as typed", "run a changed text at each pause in typing", &[]),
             Self::SetReload(Reload::Saved) => ("Run on save", "run a changed text when it is saved", &[]),
             Self::SetReload(Reload::ByHand) => ("Run by hand", "run a changed text only when asked to", &[]),
@@ -369,11 +370,11 @@ impl Command {
             Self::Stop => session.is_busy() || session.is_playing(),
             Self::Choose(Purpose::ExportMesh) | Self::CopyImage => session.frame().is_some(),
             Self::ForgetRecent => !session.recent().is_empty(),
-            Self::View(action) => action.is_enabled(session),
             Self::Undo => session.can_undo(),
             Self::Redo => session.can_redo(),
             Self::Text(TextAction::NextProblem | TextAction::PreviousProblem) => session.has_problems_here(),
             Self::ResetParams => !session.document.params.is_empty(),
+            Self::Inspect(inspect) => inspect.is_enabled(session),
             Self::TakeFromDisk | Self::KeepMine => session.text_on_disk().is_some(),
             _ => true,
         }
@@ -389,13 +390,13 @@ impl Command {
             Self::Vertices => style.vertices,
             Self::Smooth => style.smooth,
             Self::Control => style.control,
-            Self::View(action) => return action.is_on(session),
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,
             Self::SetReload(reload) => session.reload == *reload,
             Self::FullScreen => session.full_screen,
             Self::Reference => session.reference,
+            Self::Inspect(inspect) => return inspect.is_on(session),
             _ => return None,
         })
     }
@@ -441,9 +442,7 @@ impl TextAction {
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
     let function = matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11);
-    // Ctrl with an arrow goes from word to word.
-    let walks = matches!(shortcut.logical_key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown);
-    shortcut.modifiers.command && !walks || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
+    shortcut.modifiers.command || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use vv::ir::FunctionId;
 use vv::mesh::{Mesh, close};
 use vv::stop::{Stop, Stopped};
 
+use crate::inspect::lineage::Survivors;
 use crate::trace;
 
 /// A mesh after `start` (generation 0) or after a step, closed.
@@ -21,6 +22,8 @@ pub struct Generation {
     pub mesh: Mesh,
     /// What closing the step found.
     pub warnings: Vec<Diagnostic>,
+    /// Which of its vertices were vertices of the one before.
+    pub survivors: Survivors,
     /// Seconds the program took.
     pub step_s: f64,
     /// Seconds closing took.
@@ -55,18 +58,19 @@ pub fn advance(
     settings: &Settings,
     output: &mut dyn Output,
 ) -> Result<Generation, Failure> {
-    let began = Instant::now();
+    let (began, count) = (Instant::now(), mesh.vertex_count());
     let span = trace::span("step");
     let mut mesh = machine.run(rule, mesh, generation, settings, output)?;
     drop(span);
     let step_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
     let _span = trace::span("closing");
+    let survivors = Survivors::of(&mesh, count);
     let warnings = close::close(&mut mesh, &settings.stop).map_err(|stopped| Failure {
         kind: FailureKind::Stopped(stopped),
         diagnostic: Box::new(Diagnostic::new(vv::diagnostic::Severity::Error, None, stopped.to_string())),
     })?;
-    Ok(Generation { mesh, warnings, step_s, closing_s: began.elapsed().as_secs_f64() })
+    Ok(Generation { mesh, warnings, survivors, step_s, closing_s: began.elapsed().as_secs_f64() })
 }
 
 /// The default budgets on this machine: memory is at most three quarters of what the machine, or the control group

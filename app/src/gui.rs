@@ -15,21 +15,26 @@
 //! texture) stays in the panel.
 
 mod cheat_sheet;
+mod clicks;
 mod dialogs;
 mod editor;
+mod findings;
 mod inspector;
 mod keys;
+mod marks;
 mod menu;
 mod messages;
+mod overlay;
 mod palette;
 mod parameters;
 mod picture;
 mod reference;
+mod ring;
+mod selection;
 mod theme;
 mod timeline;
 mod toolbar;
 mod viewport;
-mod views;
 mod widgets;
 
 use std::fmt;
@@ -309,6 +314,7 @@ impl eframe::App for App {
             self.reference.show(ui.ctx(), &mut commands);
         }
         dialogs::show(ui.ctx(), &mut self.session, &mut commands);
+        clicks::take_pointed(ui.ctx(), &self.session, &mut commands);
         if !commands.is_empty() {
             // What they change is seen in the next frame.
             ui.ctx().request_repaint();
@@ -316,12 +322,6 @@ impl eframe::App for App {
         let changed = !commands.is_empty();
         for command in commands {
             self.session.apply(command);
-        }
-        if let Some(text) = self.session.copied.take() {
-            ui.ctx().copy_text(text);
-        }
-        if std::mem::take(&mut self.session.asks_clipboard) {
-            ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
         }
         if changed {
             self.session.start(); // the worker need not wait for the next frame

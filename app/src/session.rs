@@ -5,12 +5,12 @@
 
 mod files;
 mod generations;
+mod inspecting;
 mod keeping;
 mod problem;
 mod reading;
 mod text;
 mod undo;
-mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -26,7 +26,6 @@ use vv::mesh::Value;
 use crate::camera::Camera;
 use crate::command::{Command, Panel, Reload, TextAction, ThemeChoice};
 use crate::document::{Document, MeshSource, ProgramText};
-use crate::navigation::Navigation;
 use crate::render::Size;
 use crate::scene::{Sphere, Style};
 use crate::store::{Orphan, Store};
@@ -35,6 +34,7 @@ use crate::worker::{Frame, Request, Ticket, Worker};
 use crate::{evaluation, library};
 
 use files::{Chooser, is_program, is_project};
+pub use inspecting::{Fault, Inspection, Walking};
 pub use problem::{Place, Problem, Problems};
 pub use undo::changed;
 
@@ -91,6 +91,11 @@ pub enum Dialog {
         query: String,
         /// Which of those that fit.
         selected: usize,
+    },
+    /// Which vertices?
+    SelectVertex {
+        /// As typed so far.
+        text: String,
     },
     /// All keys.
     CheatSheet {
@@ -176,8 +181,6 @@ pub struct Session {
     pub reload: Reload,
     /// How many generations follow each other in a second when playing, at most.
     pub speed: f64,
-    /// What hands do to the view.
-    pub navigation: Navigation,
     /// A place of the program that the editor shall show; the editor takes it.
     pub reveal: Option<Reveal>,
     /// What the editor shall do; the editor takes it.
@@ -186,12 +189,8 @@ pub struct Session {
     pub view: Option<(Size, Style)>,
     /// The viewport shall bring all in sight; the viewport takes it.
     pub fit: bool,
-    /// Whether that was asked for, else the mesh is another one.
-    pub asked_to_fit: bool,
-    /// Text for the clipboard; the window takes it.
-    pub copied: Option<String>,
-    /// The window shall ask the clipboard for its text; it takes this.
-    pub asks_clipboard: bool,
+    /// What is looked at closely.
+    pub inspection: Inspection,
 
     store: Option<Store>,
     orphan: Option<Orphan>,
@@ -226,9 +225,6 @@ pub struct Session {
     chooser: Option<Chooser>,
     background: Vec<Receiver<Result<String, String>>>,
     notice: Option<(Severity, String, Instant)>,
-    flight: Option<view::Flight>,
-    /// When a viewpoint was asked for from the clipboard.
-    awaited: Option<Instant>,
     /// Kept, because it hands out what was copied.
     clipboard: Arc<Mutex<Option<arboard::Clipboard>>>,
     wants_quit: bool,
@@ -255,7 +251,6 @@ impl Session {
             theme: ThemeChoice::System,
             panels: Panels::default(),
             speed: SPEED,
-            navigation: Navigation { glide: false, ..Navigation::default() },
             full_screen: false,
             reference: false,
             dialog: None,
@@ -264,9 +259,7 @@ impl Session {
             text_actions: Vec::new(),
             view: None,
             fit: true,
-            asked_to_fit: false,
-            copied: None,
-            asks_clipboard: false,
+            inspection: Inspection::default(),
             store: None,
             orphan: None,
             keeping: keeping::Keeping::default(),
@@ -293,8 +286,6 @@ impl Session {
             chooser: None,
             background: Vec::new(),
             notice: None,
-            flight: None,
-            awaited: None,
             clipboard: Arc::default(),
             wants_quit: false,
         };
@@ -432,6 +423,7 @@ impl Session {
                 self.document.param_sets.remove(&name);
             }
 
+            Command::Inspect(wish) => self.inspect(wish),
             Command::SetStyle(style) => self.document.style = style,
             Command::Faces => self.change_style(|s| {
                 s.faces = !s.faces;
@@ -441,9 +433,11 @@ impl Session {
             Command::Vertices => self.change_style(|s| s.vertices = !s.vertices),
             Command::Smooth => self.change_style(|s| s.smooth = !s.smooth),
             Command::Control => self.change_style(|s| s.control = !s.control),
-            Command::SetCamera(camera) => self.set_camera(camera),
-            Command::View(action) => self.change_view(action),
-            Command::Fit => (self.fit, self.asked_to_fit) = (true, true),
+            Command::SetCamera(camera) => {
+                self.land();
+                self.document.camera = camera;
+            }
+            Command::Fit => self.fit = true,
             Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,
             Command::FullScreen => self.full_screen = !self.full_screen,
@@ -469,8 +463,8 @@ impl Session {
         self.take_choice();
         self.take_background();
         self.play();
-        let flight = self.fly();
         let keep = self.keep();
+        let motion = self.animate();
         self.ask();
         if self.notice.as_ref().is_some_and(|(.., since)| since.elapsed() > NOTICE) {
             self.notice = None;
@@ -480,7 +474,7 @@ impl Session {
         let grace = self.running.as_ref().filter(|_| self.due.is_some()).map(|r| r.since + GRACE);
         let notice = self.notice.as_ref().map(|(.., since)| *since + NOTICE);
         let clock = self.running.as_ref().map(|_| now + Duration::from_millis(100));
-        let next = [self.due.max(grace), beat, notice, clock, keep, flight].into_iter().flatten().min()?;
+        let next = [self.due.max(grace), beat, notice, clock, keep, motion].into_iter().flatten().min()?;
         Some(next.saturating_duration_since(now).max(Duration::from_millis(5)))
     }
 
@@ -507,7 +501,6 @@ fn welcome(refined: bool) -> Document {
         rule: None,
         params: BTreeMap::<String, Value>::new(),
         param_sets: BTreeMap::new(),
-        views: BTreeMap::new(),
         generation: if refined { 2 } else { 0 },
         style: Style { control: true, ..Style::default() },
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something

@@ -16,7 +16,7 @@ mod printer;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 
 use vv::Compilation;
@@ -30,6 +30,8 @@ use vv::stop::{Stop, Stopped};
 
 use crate::console::Console;
 use crate::document::MeshSource;
+use crate::inspect::findings::Findings;
+use crate::inspect::lineage::Lineage;
 use crate::scene::Scene;
 
 use bench::Bench;
@@ -133,6 +135,12 @@ pub struct Frame {
     pub warnings: Vec<Diagnostic>,
     /// What to draw.
     pub scene: Arc<Scene>,
+    /// The mesh of the generation before, if it was at hand.
+    pub before: Option<Mesh>,
+    /// Which vertex of a generation is which of another.
+    pub lineage: Lineage,
+    /// What is wrong with the mesh; known some time after the frame.
+    pub findings: OnceLock<Findings>,
     /// Where the time went.
     pub timings: Timings,
 }
@@ -172,6 +180,8 @@ pub struct Failed {
     pub sources: Arc<Sources>,
     /// The generation that failed.
     pub generation: u64,
+    /// The mesh before the step that failed, if a step did.
+    pub before: Option<Box<Mesh>>,
 }
 
 /// The thread that computes. Dropping it stops the work and waits for the thread to end.
@@ -335,8 +345,8 @@ mod tests {
         let (waker, awake) = mpsc::channel();
         let mut worker = Worker::start(Limits::default(), 1 << 30, move || _ = waker.send(())).unwrap();
         let frame = finish(&mut worker, request("void f(mesh& S) { }", 3)).unwrap();
-        (0..2).for_each(|_| awake.recv_timeout(Duration::from_secs(30)).unwrap());
-        assert!(frame.scene.is_indexed());
+        (0..3).for_each(|_| awake.recv_timeout(Duration::from_secs(30)).unwrap());
+        assert!(frame.scene.is_indexed() && frame.findings.get().is_some());
         assert_eq!(awake.recv_timeout(Duration::from_millis(50)), Err(mpsc::RecvTimeoutError::Timeout));
     }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{Context, Frame, Id, Key, Margin, Modal, RichText, TextEdit, Ui};
 
-use super::{cheat_sheet, palette};
+use super::{cheat_sheet, palette, selection};
 use crate::command::{Answer, Command};
 use crate::session::{Dialog, Purpose, Session};
 
@@ -13,6 +13,7 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
     match &session.dialog {
         Some(Dialog::Palette { .. }) => return palette::show(ctx, session, commands),
         Some(Dialog::CheatSheet { .. }) => return cheat_sheet::show(ctx, session, commands),
+        Some(Dialog::SelectVertex { .. }) => return selection::ask(ctx, session, commands),
         _ => {}
     }
     let name = session.document.program.name.clone();
@@ -29,7 +30,7 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
                 }
             }
             Dialog::Recover { name } => recover(ui, name, commands),
-            Dialog::Palette { .. } | Dialog::CheatSheet { .. } => {} // shown above
+            Dialog::Palette { .. } | Dialog::CheatSheet { .. } | Dialog::SelectVertex { .. } => {} // shown above
         }
     });
     if response.should_close() {

@@ -375,7 +375,7 @@ impl Editor {
                 if let Some(problem) = problem {
                     let color = theme::severity(ui.visuals(), problem.diagnostic.severity);
                     ui.label(RichText::new(&problem.diagnostic.message).color(color));
-                    messages::details(ui, problem, &mut Vec::new());
+                    messages::details(ui, session, problem, &mut Vec::new());
                 }
                 if problem.is_some() && meaning.is_some() {
                     ui.separator();

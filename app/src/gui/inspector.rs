@@ -2,8 +2,8 @@
 
 use eframe::egui::{self, Align, Grid, Layout, RichText, ScrollArea, Ui, Vec2b};
 
-use super::parameters;
 use super::widgets::{button, grouped, heading, seconds, switch};
+use super::{parameters, selection};
 use crate::command::Command;
 use crate::session::{Purpose, Session};
 use crate::worker::Frame;
@@ -22,6 +22,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             });
         });
         ui.separator();
+        selection::show(ui, session, commands);
         parameters::show(ui, session, commands);
         heading(ui, "Display");
         Grid::new("display").num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {

@@ -3,9 +3,11 @@
 use eframe::egui::{self, Align, Label, Layout, RichText, ScrollArea, Sense, TextStyle, Ui, Vec2b};
 use vv::diagnostic::Severity;
 
-use super::theme;
-use super::widgets::tab;
-use crate::command::Command;
+use super::ring::text_with_vertices;
+use super::widgets::{grouped, tab};
+use super::{findings, theme};
+use crate::command::{Command, Inspect};
+use crate::inspect::findings::Findings;
 use crate::session::{Problem, Session};
 
 /// The panel's own state: which half is shown.
@@ -23,6 +25,9 @@ impl Messages {
         let (errors, warnings) = (problems.count(Severity::Error), problems.count(Severity::Warning));
         if errors > 0 && self.errors == 0 {
             self.console = false;
+            if session.inspection.listing {
+                commands.push(Command::Inspect(Inspect::ListProblems));
+            }
         }
         self.errors = errors;
         let generation = session.console_generation();
@@ -35,24 +40,50 @@ impl Messages {
                 let worst = if errors > 0 { Severity::Error } else { Severity::Warning };
                 title = title.color(theme::severity(ui.visuals(), worst));
             }
-            if tab(ui, !self.console, title, "Problems").clicked() {
+            let listing = session.inspection.listing;
+            let list = Command::Inspect(Inspect::ListProblems);
+            if tab(ui, !self.console && !listing, title, "Problems").clicked() {
                 self.console = false;
+                commands.extend(listing.then(|| list.clone()));
+            }
+            let title = mesh_title(ui, session);
+            if tab(ui, listing, title, "Mesh").clicked() && !listing {
+                commands.push(list.clone());
             }
             let title = if lines == 0 { "Console".to_owned() } else { format!("Console ({lines})") };
-            if tab(ui, self.console, title, "Console").clicked() {
+            if tab(ui, self.console && !listing, title, "Console").clicked() {
                 self.console = true;
+                commands.extend(listing.then_some(list));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if self.console && lines > 0 && ui.small_button("Copy").on_hover_text("copy all lines").clicked() {
+                if self.console
+                    && !listing
+                    && lines > 0
+                    && ui.small_button("Copy").on_hover_text("copy all lines").clicked()
+                {
                     ui.ctx().copy_text(session.console().lines(generation, 0..lines).join("\n"));
                 }
             });
         });
         ui.add_space(2.0);
-        if self.console {
+        if session.inspection.listing {
+            findings::show(ui, session, commands);
+        } else if self.console {
             console(ui, session, generation, lines);
         } else {
             list(ui, session, commands);
+        }
+    }
+}
+
+/// How much is wrong with the mesh.
+fn mesh_title(ui: &Ui, session: &Session) -> RichText {
+    let findings = session.frame().and_then(|frame| frame.findings.get());
+    match findings.map(Findings::counts) {
+        None | Some((_, 0)) => RichText::new("Mesh"),
+        Some((wrong, all)) => {
+            let title = RichText::new(format!("Mesh ({})", grouped(all)));
+            if wrong > 0 { title.color(theme::severity(ui.visuals(), Severity::Warning)) } else { title }
         }
     }
 }
@@ -64,12 +95,12 @@ fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             ui.weak("no problems");
         }
         for problem in session.problems().iter() {
-            entry(ui, problem, commands);
+            entry(ui, session, problem, commands);
         }
     });
 }
 
-fn entry(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
+fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<Command>) {
     let diagnostic = &problem.diagnostic;
     let color = theme::severity(ui.visuals(), diagnostic.severity);
     let place = match &problem.place {
@@ -91,14 +122,15 @@ fn entry(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
     {
         commands.push(Command::Reveal(place.range.clone()));
     }
-    ui.indent(("details", diagnostic.span, &diagnostic.message), |ui| details(ui, problem, commands));
+    ui.indent(("details", diagnostic.span, &diagnostic.message), |ui| details(ui, session, problem, commands));
 }
 
 /// Evidence, hints and fixes; also in the editor's tooltip.
-pub fn details(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
+pub fn details(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<Command>) {
     for fact in &problem.diagnostic.evidence {
-        ui.add(Label::new(RichText::new(fact).weak()).wrap());
+        text_with_vertices(ui, session, commands, fact, problem.generation);
     }
+    vertices(ui, session, problem, commands);
     for hint in &problem.diagnostic.hints {
         ui.horizontal_wrapped(|ui| {
             ui.add(Label::new(RichText::new(format!("hint: {}", hint.message)).weak()).wrap());
@@ -111,6 +143,21 @@ pub fn details(ui: &mut Ui, problem: &Problem, commands: &mut Vec<Command>) {
     for (function, _) in &problem.diagnostic.calls {
         ui.weak(format!("in {function}"));
     }
+}
+
+/// The vertices that it is about.
+fn vertices(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<Command>) {
+    const SHOWN: usize = 24;
+    let all = &problem.diagnostic.vertices;
+    if problem.generation.is_none() || all.is_empty() {
+        return;
+    }
+    let mut text = "about ".to_owned();
+    text += &all.iter().take(SHOWN).map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    if all.len() > SHOWN {
+        text += &format!(" and {} more", all.len() - SHOWN);
+    }
+    text_with_vertices(ui, session, commands, &text, problem.generation);
 }
 
 fn console(ui: &mut Ui, session: &Session, generation: u64, lines: usize) {

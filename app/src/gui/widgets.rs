@@ -18,6 +18,8 @@ pub enum Icon {
     Play,
     Pause,
     Stop,
+    /// Once around.
+    Walk,
 }
 
 impl Icon {
@@ -47,6 +49,12 @@ impl Icon {
             Self::Stop => {
                 painter.rect_filled(Rect::from_min_max(at(0.14, 0.14), at(0.86, 0.86)), 1.5, color);
             }
+            Self::Walk => {
+                let on_circle = |turn: f32| at(0.5 + 0.4 * turn.cos(), 0.5 + 0.4 * turn.sin());
+                let around: Vec<Pos2> = (0..=12).map(|i| on_circle(-2.2 + 0.4 * i as f32)).collect();
+                painter.add(Shape::line(around, Stroke::new(1.4, color)));
+                triangle([at(0.02, 0.38), at(0.36, 0.3), at(0.12, 0.02)]);
+            }
         }
     }
 }
@@ -70,6 +78,15 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool, accent: O
         response
     })
     .inner
+}
+
+/// A small drawing to click, named for those who cannot see it.
+pub fn icon(ui: &mut Ui, icon: Icon, name: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(20.0, 18.0), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+    let color = ui.style().interact(&response).text_color();
+    icon.paint(ui.painter(), Rect::from_center_size(rect.center(), Vec2::splat(11.0)), color);
+    response
 }
 
 /// Tooltip of a command: what it does, and its keys.

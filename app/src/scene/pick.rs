@@ -153,6 +153,18 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Whether faces of the mesh lie before a point that is seen along a ray, by more than `slack` world units: what is
+    /// nearer is the surface that it lies on. No while [`Scene::is_indexed`] is not true yet.
+    #[must_use]
+    pub fn hides(&self, sight: Ray, point: DVec3, slack: f64) -> bool {
+        let Some(indices) = self.index.get() else { return false };
+        let ray = Ray { origin: (sight.origin - self.origin) / self.unit, ..sight };
+        let distance = ((point - self.origin) / self.unit - ray.origin).dot(ray.direction);
+        first_hit(&indices[0], &self.mesh, ray).is_some_and(|(t, _)| t < distance - slack / self.unit)
+    }
+}
+
 /// The triangle that a ray meets first, and how far along.
 fn first_hit(index: &Index, part: &Part, ray: Ray) -> Option<(f64, usize)> {
     let mut first: Option<(f64, usize)> = None;

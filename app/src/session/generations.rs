@@ -137,6 +137,7 @@ impl Session {
         match report.event {
             Event::Compiled { compilation, files } => {
                 self.problems.compiled(&compilation);
+                self.inspection.fault = None;
                 if let Some(program) = &compilation.program {
                     self.program = Some(Arc::clone(program));
                     self.included.clear();
@@ -150,7 +151,8 @@ impl Session {
             Event::Stepping(generation) => running.stepping = Some(generation),
             Event::Preview(frame) => self.show(frame),
             Event::Finished(frame) => {
-                self.problems.ran(&frame.warnings, &Arc::default());
+                self.problems.ran(&frame.warnings, &Arc::default(), frame.request.generation);
+                self.inspection.fault = None;
                 self.show(frame);
                 self.stale = None;
                 self.running = None;
@@ -164,6 +166,7 @@ impl Session {
 
     fn show(&mut self, frame: Arc<Frame>) {
         release(self.frame.replace(frame));
+        self.follow();
     }
 
     fn failed(&mut self, failed: Failed) {
@@ -172,7 +175,9 @@ impl Session {
             self.stale = Some(Stale::Stopped);
             return;
         }
-        self.problems.ran(failed.diagnostic.as_deref().map_or(&[], std::slice::from_ref), &failed.sources);
+        self.remember_fault(&failed);
+        let before = failed.generation.saturating_sub(1);
+        self.problems.ran(failed.diagnostic.as_deref().map_or(&[], std::slice::from_ref), &failed.sources, before);
         let message = match self.problems.first_error() {
             Some(problem) => match problem.place.as_ref().filter(|place| place.own) {
                 Some(place) => format!("line {}: {}", place.start.line, problem.diagnostic.message),

@@ -14,6 +14,8 @@ pub struct Problem {
     pub diagnostic: Diagnostic,
     /// Where; `None` for what concerns a mesh or a step as a whole.
     pub place: Option<Place>,
+    /// The generation whose vertices it names, if any: of a step that failed, the one before.
+    pub generation: Option<u64>,
 }
 
 /// A stretch of a program.
@@ -56,27 +58,28 @@ impl Problems {
     }
 
     pub(super) fn compiled(&mut self, compilation: &Compilation) {
-        self.compiled = located(&compilation.diagnostics, &compilation.sources);
+        self.compiled = located(&compilation.diagnostics, &compilation.sources, None);
         self.ran.clear();
     }
 
     pub(super) fn mesh_read(&mut self, name: &str, diagnostics: Vec<Diagnostic>) {
-        self.mesh = located(&diagnostics, &Sources::default());
+        self.mesh = located(&diagnostics, &Sources::default(), Some(0));
         for problem in &mut self.mesh {
             problem.diagnostic.message = format!("{name}: {}", problem.diagnostic.message);
         }
     }
 
-    pub(super) fn ran(&mut self, diagnostics: &[Diagnostic], sources: &Arc<Sources>) {
-        self.ran = located(diagnostics, sources);
+    pub(super) fn ran(&mut self, diagnostics: &[Diagnostic], sources: &Arc<Sources>, generation: u64) {
+        self.ran = located(diagnostics, sources, Some(generation));
     }
 }
 
-fn located(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<Problem> {
+fn located(diagnostics: &[Diagnostic], sources: &Sources, generation: Option<u64>) -> Vec<Problem> {
     let place = |span: Span| {
         let (file, start, _) = sources.locate(span)?;
         let range = span.start as usize..span.end as usize;
         Some(Place { file: crate::document::file_name(file.as_ref()), own: span.file == FileId::MAIN, start, range })
     };
-    diagnostics.iter().map(|d| Problem { diagnostic: d.clone(), place: d.span.and_then(place) }).collect()
+    let problem = |d: &Diagnostic| Problem { diagnostic: d.clone(), place: d.span.and_then(place), generation };
+    diagnostics.iter().map(problem).collect()
 }

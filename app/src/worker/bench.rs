@@ -19,6 +19,7 @@ use super::printer::Printer;
 use super::{Event, Failed, Frame, Reached, Recipe, Report, Request, Shared, lock};
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
+use crate::inspect::findings::Findings;
 use crate::{files, library, trace};
 
 /// The state of the worker's thread.
@@ -97,6 +98,7 @@ impl Bench {
                         diagnostic: Some(Box::new(Diagnostic::new(Severity::Error, None, message))),
                         sources: Arc::default(),
                         generation,
+                        before: None,
                     })
                 }
             };
@@ -105,8 +107,8 @@ impl Bench {
     }
 
     fn report(&self, ticket: u64, event: Event) {
-        let scene = match &event {
-            Event::Finished(frame) | Event::Preview(frame) => Some(Arc::clone(&frame.scene)),
+        let frame = match &event {
+            Event::Finished(frame) | Event::Preview(frame) => Some(Arc::clone(frame)),
             _ => None,
         };
         // What is on its way is seen when the window looks; to draw it would delay what comes at its end.
@@ -117,11 +119,16 @@ impl Bench {
             (self.wake)();
         }
         // The picture comes first; what is needed to point at it comes after it, and no request waits for that.
-        if let Some(scene) = scene.filter(|scene| !scene.is_indexed()) {
+        if let Some(frame) = frame.filter(|frame| !frame.scene.is_indexed() || frame.findings.get().is_none()) {
             let wake = Arc::clone(&self.wake);
             rayon::spawn(move || {
-                scene.build_index();
-                drop(scene);
+                frame.scene.build_index();
+                wake();
+                let _span = trace::span("findings");
+                // Nobody stops this: it takes less than what comes before it.
+                let found = Findings::of(&frame.mesh, &frame.faces, frame.statistics.valid, &Stop::new());
+                frame.findings.get_or_init(|| found.unwrap_or_default());
+                drop(frame);
                 wake();
             });
         }
@@ -261,6 +268,10 @@ impl Bench {
                 diagnostic: Some(failure.diagnostic),
                 sources: Arc::clone(&program.sources),
                 generation,
+                before: match generation.checked_sub(1) {
+                    None => Some(Box::new(input.clone())),
+                    Some(g) => history.generations.get(&g).map(|kept| Box::new(kept.generation.mesh.clone())),
+                },
             };
             self.report(ticket, Event::Stepping(generation));
             let mut printer = Printer::new(&self.shared, &*self.wake, generation);
@@ -282,6 +293,7 @@ impl Bench {
             };
             printer.flush();
             let kept = Kept { generation: result.map_err(failed)?, frame: None };
+            history.lineage.add(generation, &kept.generation.survivors);
             history.generations.insert(generation, kept);
             history.evict(self.memory, generation);
             self.tell_reached(history);
@@ -296,7 +308,7 @@ impl Bench {
 impl Failed {
     /// Nothing to add to what was reported.
     fn said_before(kind: FailureKind, generation: u64) -> Self {
-        Self { kind, diagnostic: None, sources: Arc::default(), generation }
+        Self { kind, diagnostic: None, sources: Arc::default(), generation, before: None }
     }
 }
 

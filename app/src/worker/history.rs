@@ -1,7 +1,7 @@
 //! The generations of a recipe that are kept, and their pictures.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 use vv::mesh::Mesh;
@@ -11,6 +11,7 @@ use vv::stop::{Stop, Stopped};
 
 use super::{Frame, Recipe, Request, Timings};
 use crate::evaluation::Generation;
+use crate::inspect::lineage::Lineage;
 use crate::scene::Scene;
 use crate::trace;
 
@@ -18,6 +19,7 @@ use crate::trace;
 pub(super) struct History {
     pub recipe: Arc<Recipe>,
     pub generations: BTreeMap<u64, Kept>,
+    pub lineage: Lineage,
     control: Option<Faces>,
 }
 
@@ -27,15 +29,17 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// The picture takes about as much again as the mesh.
+    /// The picture takes about as much again as the mesh, and holds the one before.
     fn bytes(&self) -> usize {
-        self.generation.mesh.bytes() * if self.frame.is_some() { 3 } else { 1 }
+        let picture =
+            |frame: &Arc<Frame>| 2 * self.generation.mesh.bytes() + frame.before.as_ref().map_or(0, Mesh::bytes);
+        self.generation.mesh.bytes() + self.frame.as_ref().map_or(0, picture)
     }
 }
 
 impl History {
     pub fn new(recipe: Arc<Recipe>) -> Self {
-        Self { recipe, generations: BTreeMap::new(), control: None }
+        Self { recipe, generations: BTreeMap::new(), lineage: Lineage::default(), control: None }
     }
 
     /// The picture of a generation that is kept.
@@ -48,13 +52,16 @@ impl History {
             (Some(mesh), Some(faces)) if request.generation > 0 => Some((mesh, faces)),
             _ => None,
         };
+        let before = request.generation.checked_sub(1).and_then(|g| self.generations.get(&g));
+        let before = before.map(|kept| kept.generation.mesh.clone());
         let Some(kept) = self.generations.get_mut(&request.generation) else {
             return Err(Stopped::ByUser); // not reached: the caller has just made it
         };
         if let Some(frame) = &kept.frame {
             return Ok(Arc::clone(frame));
         }
-        let frame = Arc::new(frame(request, &kept.generation, control, stop)?);
+        let lineage = self.lineage.clone();
+        let frame = Arc::new(Frame { before, lineage, ..frame(request, &kept.generation, control, stop)? });
         kept.frame = Some(Arc::clone(&frame));
         Ok(frame)
     }
@@ -118,6 +125,9 @@ pub(super) fn frame(
         control_vertices: control.map_or(generation.mesh.set.len(), |(mesh, _)| mesh.set.len()),
         warnings: generation.warnings.clone(),
         scene,
+        before: None,
+        lineage: Lineage::default(),
+        findings: OnceLock::new(),
         timings: Timings {
             step: generation.step_s,
             closing: generation.closing_s,

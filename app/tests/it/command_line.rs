@@ -2,7 +2,6 @@
 
 mod budgets;
 mod files;
-mod language_server;
 mod layout;
 mod meshes;
 mod outputs;

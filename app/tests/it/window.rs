@@ -1,10 +1,10 @@
 //! The window, driven as a user drives it: by names, keys and the pointer.
 
 mod editor;
+mod inspecting;
 mod keeping;
 mod palette;
 mod timeline;
-mod view;
 
 use std::path::Path;
 use std::time::{Duration, Instant};

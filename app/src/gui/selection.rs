@@ -1,0 +1,322 @@
+//! What is selected: properties, measures, the ring, the walk.
+
+use eframe::egui::{
+    Align, Context, Frame as UiFrame, Grid, Id, Key, Layout, Margin, Modal, RichText, TextEdit, Ui, vec2,
+};
+use vv::mesh::{Mesh, Value, Vertex};
+
+use super::ring::{self, vertex_link};
+use super::widgets::{Icon, button, heading, icon_button};
+use crate::command::{Command, Inspect};
+use crate::inspect::measure::{FaceMeasure, angle, dihedral, short};
+use crate::inspect::selection::Item;
+use crate::inspect::walk::{Walk, face_left_of};
+use crate::session::{Dialog, Session, Walking};
+use crate::worker::Frame;
+
+/// Corners of a face that are named.
+const CORNERS: usize = 40;
+/// Steps of a walk that are listed.
+const STEPS: usize = 8;
+
+/// Shows it.
+pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let Some(frame) = session.frame() else { return };
+    heading(ui, "Selection");
+    let (selected, gone) = session.selection();
+    if selected.is_empty() && gone.is_empty() && session.inspection.walk.is_none() {
+        ui.add(
+            eframe::egui::Label::new(RichText::new("click a vertex, an edge or a face; Shift selects more").weak())
+                .wrap(),
+        );
+        button(ui, session, commands, Command::Inspect(Inspect::AskForVertex));
+        ui.separator();
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for wish in [Inspect::Fly, Inspect::Clear] {
+            let command = Command::Inspect(wish.clone());
+            let text = if wish == Inspect::Fly { "Fly there" } else { "Clear" };
+            let enabled = command.is_enabled(session);
+            let response =
+                ui.add_enabled(enabled, eframe::egui::Button::new(text)).accessible_name(command.describe().label);
+            if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &command)).clicked() {
+                commands.push(command);
+            }
+        }
+    });
+    if let Some(walking) = &session.inspection.walk {
+        walk(ui, session, walking, commands);
+    }
+    match selected[..] {
+        [Item::Vertex(v)] => vertex(ui, session, frame, v, commands),
+        [Item::Edge(ends)] => edge(ui, session, frame, ends, commands),
+        [Item::Face(side)] => face(ui, session, frame, side, commands),
+        _ => several(ui, session, frame, &selected, commands),
+    }
+    for (generation, item) in gone {
+        ui.weak(format!("{item} of generation {generation} is not in this one"));
+    }
+    ui.separator();
+}
+
+fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
+    let label = ui.weak(name);
+    let value = value.into();
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.add(eframe::egui::Label::new(value).truncate()).labelled_by(label.id)
+    });
+    ui.end_row();
+}
+
+fn table(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
+    Grid::new(name).num_columns(2).spacing([12.0, 3.0]).show(ui, rows);
+}
+
+/// A value as it is read at a glance.
+#[must_use]
+pub fn value(value: Value) -> String {
+    match value {
+        Value::Bool(b) => b.to_string(),
+        Value::Int(i) => i.to_string(),
+        Value::Double(x) => short(x),
+        Value::Vec(v) => format!("({}, {}, {})", short(v.x), short(v.y), short(v.z)),
+        Value::Vertex(Some(v)) => v.to_string(),
+        Value::Vertex(None) => "null".to_owned(),
+    }
+}
+
+fn vertex(ui: &mut Ui, session: &Session, frame: &Frame, v: Vertex, commands: &mut Vec<Command>) {
+    let (mesh, generation) = (&frame.mesh, frame.request.generation);
+    table(ui, "of the vertex", |ui| {
+        row(ui, "Vertex", v.to_string());
+        row(ui, "Born in", format!("generation {}", frame.lineage.birth(v, generation)));
+        let ring = mesh.ring(v);
+        let gaps = match ring.gaps() {
+            0 => String::new(),
+            1 => ", 1 gap".to_owned(),
+            n => format!(", {n} gaps"),
+        };
+        row(ui, "Valence", format!("{}{gaps}", ring.valence()));
+        row(ui, "pos", value(Value::Vec(mesh.position(v))));
+        for (i, property) in mesh.vertex_properties().iter().enumerate() {
+            let text = mesh.vertex_value(i, v).map_or_else(String::new, value);
+            row(ui, &property.name, text);
+        }
+    });
+    ring::show(ui, session, frame, v, commands);
+}
+
+fn edge(ui: &mut Ui, session: &Session, frame: &Frame, ends: [Vertex; 2], commands: &mut Vec<Command>) {
+    let (mesh, [p, q]) = (&frame.mesh, ends);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.weak("Edge");
+        vertex_link(ui, session, commands, p, &p.to_string(), None);
+        ui.label("–");
+        vertex_link(ui, session, commands, q, &q.to_string(), None);
+    });
+    table(ui, "of the edge", |ui| {
+        row(ui, "Length", short(mesh.position(p).distance(mesh.position(q))));
+        let dihedral = dihedral(mesh, ends).map_or("–".to_owned(), |a| format!("{}°", short(a)));
+        row(ui, "Dihedral angle", dihedral);
+        for (side, edge) in [("Face to the left", [p, q]), ("Face to the right", [q, p])] {
+            let face =
+                face_left_of(mesh, edge).map_or("none".to_owned(), |corners| format!("{} corners", corners.len()));
+            row(ui, side, face);
+        }
+        for (i, property) in mesh.edge_properties().iter().enumerate() {
+            let text = mesh.edge_value(i, p, q).map_or_else(String::new, value);
+            row(ui, &property.name, text);
+        }
+        if !mesh.ring(p).contains(Some(q)) || !mesh.ring(q).contains(Some(p)) {
+            row(
+                ui,
+                "One way",
+                if mesh.ring(p).contains(Some(q)) { format!("{p} → {q}") } else { format!("{q} → {p}") },
+            );
+        }
+    });
+    walk_buttons(ui, session, commands);
+}
+
+fn face(ui: &mut Ui, session: &Session, frame: &Frame, side: [Vertex; 2], commands: &mut Vec<Command>) {
+    let mesh = &frame.mesh;
+    let corners = Item::Face(side).corners(mesh);
+    let points: Vec<_> = corners.iter().map(|&v| mesh.position(v)).collect();
+    let m = FaceMeasure::of(&points);
+    table(ui, "of the face", |ui| {
+        row(ui, "Face", format!("{} corners", corners.len()));
+        row(ui, "Area", short(m.area));
+        row(ui, "Perimeter", short(m.perimeter));
+        row(ui, "Off its plane", if m.off_plane <= 1e-12 * m.radius { "0".to_owned() } else { short(m.off_plane) });
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        for &v in corners.iter().take(CORNERS) {
+            vertex_link(ui, session, commands, v, &v.to_string(), None);
+        }
+        if corners.len() > CORNERS {
+            ui.weak(format!("… {} more", corners.len() - CORNERS));
+        }
+    });
+    walk_buttons(ui, session, commands);
+}
+
+fn walk_buttons(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    if session.inspection.walk.is_none()
+        && let Some(corner) = session.corner()
+        && ui.button("Walk around").on_hover_text("Edmonds' walk, arrow by arrow").clicked()
+    {
+        commands.push(Command::Inspect(Inspect::Walk(corner)));
+    }
+}
+
+fn several(ui: &mut Ui, session: &Session, frame: &Frame, selected: &[Item], commands: &mut Vec<Command>) {
+    let mesh = &frame.mesh;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 5.0;
+        for item in selected {
+            match *item {
+                Item::Vertex(v) => {
+                    vertex_link(ui, session, commands, v, &v.to_string(), None);
+                }
+                item => {
+                    if ui.link(item.to_string()).clicked() {
+                        commands.push(Command::Inspect(Inspect::Select(item)));
+                    }
+                }
+            }
+        }
+    });
+    let vertices: Option<Vec<Vertex>> = selected
+        .iter()
+        .map(|item| match item {
+            Item::Vertex(v) => Some(*v),
+            _ => None,
+        })
+        .collect();
+    match vertices.as_deref() {
+        Some(&[a, b]) => distance(ui, mesh, a, b),
+        Some(&[a, b, c]) => triangle(ui, mesh, [a, b, c]),
+        _ => {}
+    }
+}
+
+fn distance(ui: &mut Ui, mesh: &Mesh, a: Vertex, b: Vertex) {
+    let between = mesh.position(b) - mesh.position(a);
+    let named = |p: Vertex, q: Vertex| mesh.ring(p).contains(Some(q));
+    table(ui, "of two vertices", |ui| {
+        row(ui, "Distance", short(between.length()));
+        row(ui, "From one to the other", value(Value::Vec(between)));
+        let neighbours = match (named(a, b), named(b, a)) {
+            (true, true) => "yes".to_owned(),
+            (true, false) => format!("{a} → {b} only"),
+            (false, true) => format!("{b} → {a} only"),
+            (false, false) => "no".to_owned(),
+        };
+        row(ui, "Neighbours", neighbours);
+    });
+}
+
+fn triangle(ui: &mut Ui, mesh: &Mesh, [a, b, c]: [Vertex; 3]) {
+    let [p, q, r] = [a, b, c].map(|v| mesh.position(v));
+    let degrees = |angle: Option<f64>| angle.map_or("–".to_owned(), |x| format!("{}°", short(x)));
+    table(ui, "of three vertices", |ui| {
+        row(ui, &format!("Angle at {b}"), degrees(angle(p, q, r)));
+        row(ui, &format!("Angle at {a}"), degrees(angle(r, p, q)));
+        row(ui, &format!("Angle at {c}"), degrees(angle(q, r, p)));
+        row(ui, "Area", short(FaceMeasure::of(&[p, q, r]).area));
+    });
+}
+
+/// The walk: buttons, the rules used so far, how it ends.
+fn walk(ui: &mut Ui, session: &Session, walking: &Walking, commands: &mut Vec<Command>) {
+    let Walking { walk, at, .. } = walking;
+    heading(ui, "Edmonds' walk");
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let playing = walking.playing.is_some();
+        let mut press = |icon, wish: Inspect| {
+            let command = Command::Inspect(wish);
+            let response = icon_button(ui, icon, command.describe().label, command.is_enabled(session), None);
+            if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &command)).clicked() {
+                commands.push(command);
+            }
+        };
+        press(Icon::Back, Inspect::WalkBack);
+        press(Icon::Step, Inspect::WalkOn);
+        press(if playing { Icon::Pause } else { Icon::Play }, Inspect::PlayWalk);
+        press(Icon::Stop, Inspect::EndWalk);
+        ui.weak(format!("{at} of {}", walk.arrows()));
+    });
+    let first = at.saturating_sub(STEPS);
+    if first > 0 {
+        ui.weak(format!("… {first} before"));
+    }
+    for i in first..*at {
+        rule(ui, session, walk, i, i + 1 == *at, commands);
+    }
+    if *at == walk.arrows() {
+        let color = if walk.is_broken() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
+        ui.add(eframe::egui::Label::new(RichText::new(walk.conclusion()).color(color).strong()).wrap());
+    }
+    ui.add_space(4.0);
+}
+
+fn rule(ui: &mut Ui, session: &Session, walk: &Walk, i: usize, current: bool, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
+        let number = RichText::new(format!("{}.", i + 1));
+        ui.label(if current { number.strong() } else { number.weak() });
+        ring::text_with_vertices(ui, session, commands, &walk.rule(i), Some(session.shown_generation()));
+    });
+}
+
+/// Asks for numbers of vertices.
+pub fn ask(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+    let most = session.frame().map_or(0, |frame| frame.mesh.vertex_count());
+    let Some(Dialog::SelectVertex { text }) = &mut session.dialog else { return };
+    let frame = UiFrame::window(&ctx.global_style()).inner_margin(Margin::same(18));
+    let mut chosen = None;
+    let response = Modal::new(Id::unique("select vertex")).frame(frame).show(ctx, |ui| {
+        ui.set_width(320.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+        ui.heading("Select vertex");
+        ui.add_space(4.0);
+        let label = ui.label(format!("Numbers from v1 to v{most}; two measure a distance, three an angle."));
+        let field = ui.add(TextEdit::singleline(text).hint_text("v12").desired_width(f32::INFINITY));
+        let field = field.labelled_by(label.id);
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+        if !field.has_focus() && !field.lost_focus() {
+            field.request_focus();
+        }
+        field.accessible_name("Numbers of vertices");
+        let numbers = numbers(text);
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let able = numbers.is_some();
+            let select = ui.add_enabled(able, eframe::egui::Button::new(RichText::new("Select").strong())).clicked();
+            if (select || entered) && able {
+                chosen = numbers;
+            }
+            if ui.button("Cancel").clicked() {
+                commands.push(Command::CloseDialog);
+            }
+        });
+    });
+    if response.should_close() {
+        commands.push(Command::CloseDialog);
+    }
+    if let Some(numbers) = chosen {
+        commands.push(Command::CloseDialog);
+        commands.push(Command::Inspect(Inspect::SelectNumbers(numbers)));
+    }
+}
+
+/// `v3 v12`, `3, 12`.
+fn numbers(text: &str) -> Option<Vec<u64>> {
+    let words = text.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty());
+    let numbers: Option<Vec<u64>> = words.map(|word| word.trim_start_matches(['v', 'V']).parse().ok()).collect();
+    numbers.filter(|numbers| !numbers.is_empty() && numbers.len() <= crate::inspect::selection::MOST)
+}

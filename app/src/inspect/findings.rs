@@ -1,0 +1,280 @@
+//! What is wrong with a mesh, or at least noteworthy, each finding at its place.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use rayon::prelude::*;
+use vv::mesh::faces::Faces;
+use vv::mesh::validate::{Finding, validate};
+use vv::mesh::{Mesh, Vertex};
+use vv::stop::{Stop, Stopped};
+
+use super::measure::FaceMeasure;
+use super::selection::Item;
+use super::walk::Walk;
+
+/// Findings of a kind that are listed; all are counted.
+pub const LISTED: usize = 100;
+
+/// A face is plane if no corner lies farther from its plane than this part of its width.
+const PLANE: f64 = 1e-6;
+
+/// A face is degenerate if its area is less than this part of the square of its longest side.
+const THIN: f64 = 1e-9;
+
+/// A kind of finding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// A vertex names one that does not name it.
+    Incomplete,
+    /// A walk that neither closes nor ends at gaps.
+    Broken,
+    /// A vertex that stands in rings but not in the set.
+    Outside,
+    /// A vertex that is nowhere, or whose ring breaks an invariant.
+    Damaged,
+    /// A walk along the boundary that passes corners without gap.
+    Unclosed,
+    /// A vertex without neighbours.
+    Isolated,
+    /// A face without area, or with two corners.
+    Degenerate,
+    /// A face whose corners lie in no plane.
+    NotPlane,
+}
+
+impl Kind {
+    /// What several of it are called.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Incomplete => "incomplete neighbours",
+            Self::Broken => "broken orbits",
+            Self::Outside => "neighbours outside the set",
+            Self::Damaged => "damaged vertices",
+            Self::Unclosed => "corners of the boundary without gap",
+            Self::Isolated => "isolated vertices",
+            Self::Degenerate => "degenerate faces",
+            Self::NotPlane => "faces that are not plane",
+        }
+    }
+
+    /// What it means, in a sentence.
+    #[must_use]
+    pub fn explanation(self) -> &'static str {
+        match self {
+            Self::Incomplete => "a vertex names a neighbour that does not name it: u in v* without v in u*",
+            Self::Broken => "Edmonds' walk comes to a vertex that does not name the one it comes from",
+            Self::Outside => "a ring names a vertex that is not in the mesh's set",
+            Self::Damaged => "the position is no number, or the ring breaks an invariant",
+            Self::Unclosed => "a walk along the boundary passes a corner where no gap is written",
+            Self::Isolated => "nobody names them, and they name nobody",
+            Self::Degenerate => "the corners lie on a line or at a point, or there are only two",
+            Self::NotPlane => "by how far a corner lies off the plane that fits best, as a part of the face's width",
+        }
+    }
+
+    /// Whether it makes the mesh invalid.
+    #[must_use]
+    pub fn is_wrong(self) -> bool {
+        !matches!(self, Self::Isolated | Self::Degenerate | Self::NotPlane)
+    }
+}
+
+/// The findings of a kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// The kind.
+    pub kind: Kind,
+    /// How many there are.
+    pub count: usize,
+    /// The first of them; of the faces that are not plane, the worst.
+    pub rows: Vec<Row>,
+}
+
+/// A finding.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What it is, in a line.
+    pub text: String,
+    /// Where: what is selected to show it.
+    pub item: Item,
+    /// The first edge of the walk that shows it.
+    pub walk: Option<[Vertex; 2]>,
+    /// The entry that is not answered, from whom to whom.
+    pub one_way: Option<[Vertex; 2]>,
+}
+
+/// All findings of a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Findings {
+    /// By kind, the kinds that occur.
+    pub groups: Vec<Group>,
+    /// All entries that are not answered: who is named, by whom; sorted.
+    one_way: Vec<[Vertex; 2]>,
+}
+
+impl Findings {
+    /// Looks for them; `valid` if the mesh is known to be valid. Cost: linear, on all threads.
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn of(mesh: &Mesh, faces: &Faces, valid: bool, stop: &Stop) -> Result<Self, Stopped> {
+        let mut all = Self::default();
+        if !valid {
+            all.add_faults(mesh, &validate(mesh, stop)?);
+        }
+        let isolated = mesh.vertices().filter(|&v| mesh.set.contains(v) && mesh.ring(v).slots().is_empty());
+        all.add(Kind::Isolated, isolated.map(|v| (v, ())), |v, ()| row(format!("{v} has no neighbours"), vertex(v)));
+        stop.check()?;
+        let shapes = in_pieces(faces, |range| shapes(mesh, faces, range), stop)?;
+        let (mut thin, mut bent) = (Vec::new(), Vec::new());
+        for (mut t, mut b) in shapes {
+            thin.append(&mut t);
+            bent.append(&mut b);
+        }
+        let face = |i: usize| match faces.get(i) {
+            &[p, q, ..] => Some(Item::Face([p, q])),
+            _ => None,
+        };
+        let named = |i: usize| -> String {
+            let corners = faces.get(i);
+            let names: Vec<String> = corners.iter().take(6).map(ToString::to_string).collect();
+            format!("{}{}", names.join(" "), if corners.len() > 6 { " …" } else { "" })
+        };
+        let thin = thin.into_iter().filter_map(|i| Some((face(i)?, i)));
+        all.add(Kind::Degenerate, thin, |item, i| row(format!("face {}", named(i)), item));
+        // The worst first; of equals, the first.
+        let worst = |a: &(f64, usize), b: &(f64, usize)| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1));
+        if bent.len() > LISTED {
+            bent.select_nth_unstable_by(LISTED, worst);
+        }
+        let listed = bent.len().min(LISTED);
+        bent[..listed].sort_unstable_by(worst);
+        let bent = bent.into_iter().filter_map(|(warp, i)| Some((face(i)?, (warp, i))));
+        all.add(Kind::NotPlane, bent, |item, (warp, i)| row(format!("{}  face {}", percent(warp), named(i)), item));
+        Ok(all)
+    }
+
+    /// How many there are of the kinds that make a mesh invalid, and of all.
+    #[must_use]
+    pub fn counts(&self) -> (usize, usize) {
+        let count =
+            |wrong_only: bool| self.groups.iter().filter(|g| !wrong_only || g.kind.is_wrong()).map(|g| g.count).sum();
+        (count(true), count(false))
+    }
+
+    /// Those that name a vertex which does not name them.
+    pub fn unanswered(&self, v: Vertex) -> impl Iterator<Item = Vertex> + '_ {
+        let start = self.one_way.partition_point(|&[to, _]| to < v);
+        self.one_way[start..].iter().take_while(move |[to, _]| *to == v).map(|&[_, from]| from)
+    }
+
+    fn add_faults(&mut self, mesh: &Mesh, findings: &[Finding]) {
+        let one_way = |f: &Finding| match *f {
+            Finding::OneSided { from, to } => Some((from, to)),
+            _ => None,
+        };
+        self.add(Kind::Incomplete, findings.iter().filter_map(one_way), |from, to| Row {
+            one_way: Some([from, to]),
+            ..row(format!("{from} → {to}: {to} does not name {from}"), vertex(from))
+        });
+        self.one_way = findings.iter().filter_map(one_way).map(|(from, to)| [to, from]).collect();
+        self.one_way.sort_unstable();
+        // Each entry that is not answered ends one walk.
+        let ends = findings.iter().filter_map(|f| match *f {
+            Finding::OneSided { from, to } | Finding::Outside { from, to } => Some((from, to)),
+            _ => None,
+        });
+        self.add(Kind::Broken, ends, |from, to| {
+            let walk = Walk::through(mesh, from, to);
+            let names: Vec<String> = walk.path.iter().rev().take(6).rev().map(ToString::to_string).collect();
+            let before = if walk.path.len() > 6 { "… " } else { "" };
+            let first = [walk.path[0], walk.path[1]];
+            Row { walk: Some(first), ..row(format!("{before}{} breaks at {to}", names.join(" → ")), vertex(to)) }
+        });
+        let outside = findings.iter().filter_map(|f| match *f {
+            Finding::Outside { from, to } => Some((from, to)),
+            _ => None,
+        });
+        self.add(Kind::Outside, outside, |from, to| Row {
+            one_way: Some([from, to]),
+            ..row(format!("{from} names {to}, which is not in the set"), vertex(from))
+        });
+        let damaged = findings.iter().filter_map(|f| match *f {
+            Finding::NotFinite { vertex } => Some((vertex, "is at no finite place")),
+            Finding::Ring { vertex } => Some((vertex, "has a damaged ring")),
+            Finding::Foreign { vertex } => Some((vertex, "is in the set but does not exist")),
+            _ => None,
+        });
+        self.add(Kind::Damaged, damaged, |v, what| row(format!("{v} {what}"), vertex(v)));
+        let unclosed = findings.iter().filter_map(|f| match *f {
+            Finding::Unclosed { at, after } => Some((at, after)),
+            _ => None,
+        });
+        self.add(Kind::Unclosed, unclosed, |at, after| row(format!("{at} has no gap after {after}"), vertex(at)));
+    }
+
+    /// Counts all, lists the first.
+    fn add<T, U>(&mut self, kind: Kind, found: impl Iterator<Item = (T, U)>, show: impl Fn(T, U) -> Row) {
+        let mut group = Group { kind, count: 0, rows: Vec::new() };
+        for (a, b) in found {
+            group.count += 1;
+            if group.rows.len() < LISTED {
+                group.rows.push(show(a, b));
+            }
+        }
+        if group.count > 0 {
+            self.groups.push(group);
+        }
+    }
+}
+
+fn vertex(v: Vertex) -> Item {
+    Item::Vertex(v)
+}
+
+fn row(text: String, item: Item) -> Row {
+    Row { text, item, walk: None, one_way: None }
+}
+
+fn percent(part: f64) -> String {
+    match 100.0 * part {
+        p if p < 0.01 => format!("{p:.1e} %"),
+        p => format!("{p:.2} %"),
+    }
+}
+
+/// The faces of a range that are degenerate, and those that are not plane with how much.
+fn shapes(mesh: &Mesh, faces: &Faces, range: Range<usize>) -> (Vec<usize>, Vec<(f64, usize)>) {
+    let (mut thin, mut bent) = (Vec::new(), Vec::new());
+    let mut points: Vec<DVec3> = Vec::new();
+    for i in range {
+        let corners = faces.get(i);
+        points.clear();
+        points.extend(corners.iter().map(|&v| mesh.position(v)));
+        let m = FaceMeasure::of(&points);
+        // What is nowhere is told of elsewhere.
+        if !m.radius.is_finite() {
+            continue;
+        }
+        if corners.len() < 3 || m.area <= THIN * m.longest * m.longest {
+            thin.push(i);
+        } else if corners.len() > 3 && m.warp() > PLANE {
+            bent.push((m.warp(), i));
+        }
+    }
+    (thin, bent)
+}
+
+/// Does something with all faces, piece by piece; the results are in order.
+fn in_pieces<T: Send>(faces: &Faces, work: impl Fn(Range<usize>) -> T + Sync, stop: &Stop) -> Result<Vec<T>, Stopped> {
+    const PIECE: usize = 1 << 13;
+    (0..faces.len().div_ceil(PIECE))
+        .into_par_iter()
+        .map(|i| {
+            stop.check()?;
+            Ok(work(i * PIECE..faces.len().min((i + 1) * PIECE)))
+        })
+        .collect()
+}

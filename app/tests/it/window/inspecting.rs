@@ -1,0 +1,303 @@
+//! Looking closer: what is selected, its ring, walks, measures, what is wrong with the mesh.
+
+use app::camera::picture_point;
+use app::command::Inspect;
+use app::inspect::findings::Kind;
+use app::inspect::selection::Item;
+use glam::{DVec2, DVec3};
+use vv::mesh::Vertex;
+
+use super::*;
+
+fn v(number: usize) -> Vertex {
+    Vertex::from_index(number - 1).unwrap()
+}
+
+/// A mesh of a file, with a program that steps it.
+fn on(obj: &str, program: &str) -> (Harness<'static, App>, tempfile::TempDir) {
+    let folder = tempfile::tempdir().unwrap();
+    let (mesh, text) = (folder.path().join("mesh.obj"), folder.path().join("program.vv"));
+    std::fs::write(&mesh, obj).unwrap();
+    std::fs::write(&text, program).unwrap();
+    let mut window = open(Some(&mesh), Some(&text));
+    known(&mut window);
+    (window, folder)
+}
+
+/// Until the picture can be pointed at and the mesh was looked at.
+#[track_caller]
+fn known(window: &mut Harness<'static, App>) {
+    settle(window);
+    until(window, "it can be pointed at", |s| {
+        s.frame().is_some_and(|f| f.scene.is_indexed() && f.findings.get().is_some()) && !s.is_flying()
+    });
+    window.step();
+}
+
+/// Where a point of the world is seen in the window.
+fn seen(window: &Harness<'static, App>, p: DVec3) -> egui::Pos2 {
+    let rect = window.get_by_label("Viewport").rect();
+    let camera = window.state().session().document.camera;
+    let aspect = f64::from(rect.width() / rect.height());
+    let clip = camera.clip_from_view(aspect) * camera.view_from_world() * p.extend(1.0);
+    let half = rect.size() / 2.0;
+    let at = rect.center() + egui::vec2((clip.x / clip.w) as f32 * half.x, -(clip.y / clip.w) as f32 * half.y);
+    // It is what the camera says.
+    let of = |v: egui::Vec2| DVec2::new(f64::from(v.x), f64::from(v.y));
+    let ray = camera.ray(picture_point(of(at - rect.min), of(rect.size())));
+    let along = (p - ray.origin).dot(ray.direction);
+    assert!(p.distance(ray.origin + along * ray.direction) < 1e-3 * camera.distance);
+    at
+}
+
+fn click_at(window: &mut Harness<'static, App>, p: DVec3, modifiers: Modifiers) {
+    let at = seen(window, p);
+    click_in_window(window, at, modifiers);
+}
+
+fn click_in_window(window: &mut Harness<'static, App>, at: egui::Pos2, modifiers: Modifiers) {
+    window.hover_at(at);
+    window.step();
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Primary;
+        window.event_modifiers(egui::Event::PointerButton { pos: at, button, pressed, modifiers }, modifiers);
+        window.step();
+    }
+    window.event(egui::Event::PointerGone);
+    known(window);
+}
+
+fn selected(window: &Harness<'static, App>) -> Vec<Item> {
+    window.state().session().selected()
+}
+
+fn position(window: &Harness<'static, App>, number: usize) -> DVec3 {
+    window.state().session().frame().unwrap().mesh.position(v(number))
+}
+
+/// The row of a table.
+#[track_caller]
+fn says(window: &Harness<'static, App>, name: &str, value: &str) {
+    window.get_by(|node| node.label().as_deref() == Some(name) && node.value().as_deref() == Some(value));
+}
+
+const PLANE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+const LOOP: &str = "void f(mesh& S) {\n  forall v in S v$pos *= 2.0;\n  vertex x; add x to S; }\n";
+
+#[test]
+fn a_click_selects_what_is_under_it_and_one_on_nothing_clears() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    let middle = position(&window, 5);
+    click_at(&mut window, middle, Modifiers::NONE);
+    assert_eq!(selected(&window), [Item::Vertex(v(5))]);
+    click_at(&mut window, DVec3::new(0.5, 0.0, 0.0), Modifiers::NONE);
+    assert_eq!(selected(&window), [Item::Edge([v(1), v(2)])]);
+    click_at(&mut window, DVec3::new(0.5, 0.2, 0.0), Modifiers::NONE);
+    assert_eq!(selected(&window), [Item::Face([v(1), v(2)])]);
+    says(&window, "Face", "3 corners");
+    says(&window, "Area", "0.25");
+    let corner = window.get_by_label("Viewport").rect().center_top() + egui::vec2(0.0, 12.0);
+    click_in_window(&mut window, corner, Modifiers::NONE);
+    assert_eq!(selected(&window), []);
+}
+
+#[test]
+fn more_is_selected_with_shift_and_measured() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    for number in [1, 2] {
+        let at = position(&window, number);
+        click_at(&mut window, at, Modifiers::SHIFT);
+    }
+    says(&window, "Distance", "1");
+    let at = position(&window, 3);
+    click_at(&mut window, at, Modifiers::SHIFT);
+    says(&window, "Angle at v2", "90°");
+    says(&window, "Angle at v1", "45°");
+    click_at(&mut window, at, Modifiers::SHIFT);
+    assert_eq!(selected(&window), [Item::Vertex(v(1)), Item::Vertex(v(2))], "again, and it is not selected");
+    press(&mut window, Key::Escape);
+    assert_eq!(selected(&window), []);
+}
+
+#[test]
+fn an_edge_tells_its_length_and_the_angle_of_its_faces() {
+    let mut window = open(None, None);
+    window.state_mut().apply(Command::UseMesh(MeshSource::BuiltIn("cube.obj".to_owned())));
+    window.state_mut().apply(Command::Rewind);
+    known(&mut window);
+    let frame = window.state().session().frame().unwrap().clone();
+    let [p, q] = [frame.faces.get(0)[0], frame.faces.get(0)[1]];
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Edge([p.min(q), p.max(q)]))));
+    window.step();
+    says(&window, "Dihedral angle", "90°");
+    says(&window, "Face to the left", "4 corners");
+}
+
+#[test]
+fn the_ring_of_a_vertex_is_told_and_the_mesh_is_walked_by_its_entries() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    let first = position(&window, 1);
+    click_at(&mut window, first, Modifiers::NONE);
+    says(&window, "Valence", "3, 1 gap");
+    says(&window, "Born in", "generation 0");
+    // {v2, v5, v4, _}
+    for entry in ["v2", "v5", "v4"] {
+        window.get_by_label(&format!("ring entry {entry}"));
+    }
+    window.get_by_label("ring entry v5").hover();
+    window.run_steps(3);
+    assert_eq!(window.state().session().inspection.pointed, Some(v(5)), "the mesh answers");
+    click(&mut window, "ring entry v5");
+    assert_eq!(selected(&window), [Item::Vertex(v(5))]);
+    says(&window, "Valence", "4");
+    click(&mut window, "v3");
+    assert_eq!(selected(&window), [Item::Vertex(v(3))]);
+}
+
+#[test]
+fn pointing_at_a_vertex_of_the_picture_is_seen_in_the_panel() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(1)))));
+    let at = seen(&window, position(&window, 5));
+    window.hover_at(at);
+    window.run_steps(3);
+    assert_eq!(window.state().session().inspection.pointed, Some(v(5)));
+    let elsewhere = seen(&window, DVec3::new(0.5, 0.2, 0.0));
+    window.hover_at(elsewhere);
+    window.run_steps(3);
+    assert_eq!(window.state().session().inspection.pointed, None);
+}
+
+#[test]
+fn what_is_selected_stays_itself_while_generations_go_by() {
+    // Forgets v1, so that all others have new numbers.
+    let text = "void f(mesh& S) {\n  vertex first = null;\n  forall v in S { first = v; break; }\n\
+                forall q in first erase first from q;\n  make {} nb_of first;\n  remove first from S;\n\
+                vertex x; add x to S; }\n";
+    let (mut window, _folder) = on(PLANE, text);
+    let middle = position(&window, 5);
+    click_at(&mut window, middle, Modifiers::NONE);
+    press(&mut window, Key::S);
+    known(&mut window);
+    assert_eq!(selected(&window), [Item::Vertex(v(4))], "the same one under its new number");
+    assert_eq!(position(&window, 4), middle);
+    says(&window, "Born in", "generation 0");
+    window.get_by_label("Old ring, generation 0");
+    window.get_by_label("old ring entry v4");
+    press(&mut window, Key::Num5);
+    known(&mut window);
+    assert_eq!(selected(&window), []);
+    window.get_by_label("v5 of generation 0 is not in this one");
+    press(&mut window, Key::Num0);
+    assert_eq!(selected(&window), [Item::Vertex(v(5))]);
+}
+
+#[test]
+fn a_vertex_is_selected_by_its_number_and_flown_to() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    let start = window.state().session().document.camera;
+    let ask = |window: &mut Harness<'static, App>, text: &str| {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::G);
+        window.run_steps(3);
+        window.get_by_label("Numbers of vertices").type_text(text);
+        window.run_steps(2);
+        click(window, "Select");
+        known(window);
+    };
+    ask(&mut window, "v3");
+    assert_eq!(selected(&window), [Item::Vertex(v(3))]);
+    let camera = window.state().session().document.camera;
+    assert_eq!(camera.pivot, position(&window, 3));
+    assert_ne!(camera.distance, start.distance);
+    ask(&mut window, "1, 77");
+    let notice = window.state().session().notice().map(|(_, text)| text.to_owned());
+    assert_eq!(notice.as_deref(), Some("there is no v77: the mesh has v1 to v5"));
+    ask(&mut window, "1 5");
+    says(&window, "Distance", "0.70711");
+}
+
+#[test]
+fn a_walk_around_a_face_goes_step_by_step_and_closes() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    // Near the corner v1 of the face v1 v2 v5.
+    click_at(&mut window, DVec3::new(0.3, 0.1, 0.0), Modifiers::COMMAND);
+    let shown = |w: &Harness<'static, App>| {
+        let walking = w.state().session().inspection.walk.clone().unwrap();
+        (walking.at, walking.walk.rule(walking.at - 1))
+    };
+    assert_eq!(shown(&window), (1, "v5 is a neighbour of v1".to_owned()));
+    press(&mut window, Key::Period);
+    assert_eq!(shown(&window), (2, "v2 = nextto v1 in v5".to_owned()));
+    click(&mut window, "Walk on");
+    assert_eq!(shown(&window), (3, "v1 = nextto v5 in v2".to_owned()));
+    window.get_by_label("closed orbit: a face of 3 corners");
+    press(&mut window, Key::Comma);
+    assert_eq!(shown(&window).0, 2);
+    click(&mut window, "Play the walk");
+    until(&mut window, "it has gone round", |s| s.inspection.walk.as_ref().is_some_and(|w| w.at == 3));
+    click(&mut window, "End the walk");
+    assert!(window.state().session().inspection.walk.is_none());
+}
+
+#[test]
+fn a_walk_along_the_boundary_ends_at_the_gap() {
+    let (mut window, _folder) = on(PLANE, LOOP);
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(1)))));
+    window.step();
+    click(&mut window, "Walk the face at v2");
+    window.get_by_label("nextto v1 in v2 is a gap: the walk ends at the boundary");
+}
+
+/// Takes the first vertex out of the ring of a neighbour, and adds one that nobody names.
+const TEARS: &str = "void f(mesh& S) {\n  forall v in S {\n    forall q in v { erase v from q; break; }\n    break;\n  }\n  vertex x; add x to S;\n}\n";
+
+#[test]
+fn what_is_wrong_with_the_mesh_is_listed_and_leads_there() {
+    let obj = format!("{PLANE}v 3 0 0\nv 4 0 0\nv 4 1 0.5\nv 3 1 0\nf 6 7 8 9\n");
+    let (mut window, _folder) = on(&obj, TEARS);
+    press(&mut window, Key::S);
+    known(&mut window);
+    window.get_by_role_and_label(Role::Button, "Mesh").click();
+    settle(&mut window);
+    assert!(window.state().session().inspection.listing);
+    let kinds: Vec<(Kind, usize)> = {
+        let frame = window.state().session().frame().unwrap();
+        frame.findings.get().unwrap().groups.iter().map(|g| (g.kind, g.count)).collect()
+    };
+    let expected = [(Kind::Incomplete, 1), (Kind::Broken, 1), (Kind::Isolated, 1), (Kind::NotPlane, 1)];
+    assert_eq!(kinds, expected);
+    let before = window.state().session().document.camera;
+    click(&mut window, "v1 → v2: v2 does not name v1");
+    known(&mut window);
+    assert_eq!(selected(&window), [Item::Vertex(v(1))]);
+    assert_ne!(window.state().session().document.camera, before, "flown there");
+    assert_eq!(window.state().session().document.camera.pivot, position(&window, 1));
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(2)))));
+    window.step();
+    window.get_by_label("name v2 without being named:");
+    let broken = window.state().session().frame().unwrap().findings.get().unwrap().groups[1].rows[0].text.clone();
+    click(&mut window, &broken);
+    let walk = window.state().session().inspection.walk.clone().unwrap();
+    assert!(walk.walk.is_broken(), "{:?}", walk.walk);
+    click(&mut window, "Problems");
+    assert!(!window.state().session().inspection.listing);
+}
+
+#[test]
+fn a_run_time_error_shows_the_vertices_that_it_names() {
+    let text = "void f(mesh& S) {\n  forall v in S {\n    if (valence v == 4) {\n      vertex q = nextto v in v;\n\
+                print(q$pos);\n    }\n  }\n}\n";
+    let (mut window, _folder) = on(PLANE, text);
+    press(&mut window, Key::S);
+    known(&mut window);
+    let session = window.state().session();
+    let fault = session.inspection.fault.as_ref().unwrap();
+    assert_eq!((&fault.vertices[..], fault.generation), (&[v(5)][..], 0));
+    assert_eq!(fault.mesh.ring(v(5)).valence(), 4);
+    // Its name is a link to it.
+    window.get_all_by_label("v5").next().unwrap().click();
+    window.run_steps(3);
+    assert_eq!(selected(&window), [Item::Vertex(v(5))]);
+    press(&mut window, Key::Num0);
+    assert!(window.state().session().inspection.fault.is_none());
+}
