@@ -11,6 +11,7 @@ mod picture;
 mod reference;
 mod report;
 mod run;
+mod view;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -37,6 +38,7 @@ Examples:
   vv                                          open the modeler
   vv bunny.obj loop.vv                        open it with a mesh and a program
   vv run loop.vv -i bunny.obj -n 2 -o out.obj -o out.png
+  vv run loop.vv -i bunny.obj -n 2 -o side.png --view right
   vv check *.vv
   vv fmt --check *.vv
   vv mesh info bunny.obj
@@ -49,7 +51,7 @@ Examples:
 /// Without a sub-command vv opens its window. A mesh (.obj, .off, .ply, .stl, .glb, .gltf) and a program (.vv) may be given in either order.
 #[derive(Debug, Parser)]
 #[command(name = "vv", version, args_conflicts_with_subcommands = true, max_term_width = 100)]
-#[command(override_usage = "vv [MESH] [PROGRAM]\n       vv <COMMAND>")]
+#[command(override_usage = "vv [MESH] [PROGRAM] [--view VIEW]\n       vv <COMMAND>")]
 #[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
 struct Cli {
     #[command(subcommand)]
@@ -57,6 +59,9 @@ struct Cli {
     /// A mesh (.obj, .off, .ply, .stl, .glb, .gltf) and a program (.vv) to open, in either order.
     #[arg(value_name = "MESH|PROGRAM")]
     files: Vec<PathBuf>,
+    /// From where to look at first: a viewpoint that was copied in the window, a file with one, or a side such as front or isometric.
+    #[arg(long, value_name = "TEXT|FILE|SIDE")]
+    view: Option<String>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -148,7 +153,7 @@ pub fn main() -> ExitCode {
     let began = Instant::now();
     let cli = Cli::parse();
     let result = match cli.command {
-        None => open::open(&cli.files),
+        None => open::open(&cli.files, cli.view.as_deref()),
         Some(Command::Run(arguments)) => run::run(&arguments, began),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),

@@ -48,17 +48,18 @@ use crate::render;
 use crate::session::Session;
 use crate::store::Store;
 use crate::trace;
+use crate::viewpoint::Viewpoint;
 
 /// Points of width that the viewport keeps, whatever stands beside it.
 const VIEWPORT: f32 = 170.0;
 /// Least width of the inspector.
 const INSPECTOR: f32 = 200.0;
 
-/// Opens the window and returns when it is closed.
+/// Opens the window, which looks from `viewpoint` or the standard one, and returns when it is closed.
 ///
 /// # Errors
 /// When no window can be opened.
-pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>) -> Result<(), WindowError> {
+pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>, viewpoint: Option<Viewpoint>) -> Result<(), WindowError> {
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("vv")
@@ -78,7 +79,13 @@ pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>) -> Result<(), Window
             None
         }
     });
-    let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::with_store(cc, mesh, program, store)?)));
+    let create: eframe::AppCreator<'_> = Box::new(|cc| {
+        let mut app = App::with_store(cc, mesh, program, store)?;
+        if let Some(viewpoint) = viewpoint {
+            app.session.look_from(viewpoint);
+        }
+        Ok(Box::new(app))
+    });
     eframe::run_native("vv", options, create).map_err(|error| WindowError { cause: error.to_string() })
 }
 

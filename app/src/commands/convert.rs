@@ -7,6 +7,7 @@ use clap::Args;
 use vv::mesh::faces::faces;
 
 use super::output::{DEFAULT_SIZE, OutputArguments};
+use super::picture::Shot;
 use super::report::Reporter;
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, output};
 
@@ -30,6 +31,7 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
     if arguments.output.output.is_empty() {
         return fail(&reporter, Exit::Usage, error("nothing says where to write").hint("add `-o FILE`"));
     }
+    let viewpoint = arguments.output.viewpoint(&reporter)?;
     let targets = arguments.output.targets(&reporter)?;
     let (mesh, _) = input::mesh(&arguments.mesh, &arguments.importing, &reporter)?;
     let faces = match within(arguments.importing.timeout.0, |stop| faces(&mesh, stop)) {
@@ -37,6 +39,6 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
         Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),
     };
     let size = arguments.output.size().unwrap_or(DEFAULT_SIZE);
-    let outputs = output::prepare(&targets, size, false, (&mesh, &faces), &reporter)?;
+    let outputs = output::prepare(&targets, Shot { size, viewpoint }, false, (&mesh, &faces), &reporter)?;
     output::commit(outputs.prepared, &reporter)
 }

@@ -9,11 +9,12 @@ use vv::diagnostic::Diagnostic;
 use vv::io::Format;
 
 use super::report::Reporter;
-use super::{DiagnosticFormat, Exit, closest, error, fail, input};
+use super::{DiagnosticFormat, Exit, closest, error, fail, input, view};
 
 /// Opens the modeler.
-pub fn open(paths: &[PathBuf]) -> Result<(), Exit> {
+pub fn open(paths: &[PathBuf], viewpoint: Option<&str>) -> Result<(), Exit> {
     let reporter = Reporter::new(DiagnosticFormat::Human);
+    let viewpoint = viewpoint.map(|given| view::read(given, &reporter)).transpose()?;
     let Opened { mesh, program } = sort(paths).or_else(|diagnostic| fail(&reporter, Exit::Usage, *diagnostic))?;
     for path in [&mesh, &program].into_iter().flatten() {
         files::check_readable(path).map_err(|error| input::file_failed(&error, &reporter))?;
@@ -21,7 +22,7 @@ pub fn open(paths: &[PathBuf]) -> Result<(), Exit> {
     if let Some(problem) = no_window(|name| std::env::var_os(name), loader_finds) {
         return fail(&reporter, Exit::NoRenderer, problem);
     }
-    app::gui::run(mesh, program).or_else(|problem| {
+    app::gui::run(mesh, program, viewpoint).or_else(|problem| {
         let display = std::env::var("WAYLAND_DISPLAY").or_else(|_| std::env::var("DISPLAY")).unwrap_or_default();
         fail(&reporter, Exit::NoRenderer, explained(&problem.to_string(), &display))
     })

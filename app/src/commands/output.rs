@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use app::files::{self, Prepared};
+use app::viewpoint::Viewpoint;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use image::RgbaImage;
@@ -12,8 +13,9 @@ use vv::io::Format;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
 
+use super::picture::Shot;
 use super::report::Reporter;
-use super::{Exit, error, fail, input, picture};
+use super::{Exit, error, fail, input, picture, view};
 
 /// What to write.
 #[derive(Debug, Args)]
@@ -27,6 +29,9 @@ pub struct OutputArguments {
     /// Size of pictures in pixels. Default: that of the reference picture, else 1280x960.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
+    /// From where pictures look: a viewpoint that was copied in the window (`vv view: eye … target … up … perspective …`), a file with one, or a side: front, back, left, right, top, bottom, isometric; `orthographic` and `z-up` may follow. Default: the whole mesh, a little from above.
+    #[arg(long, value_name = "TEXT|FILE|SIDE")]
+    view: Option<String>,
 }
 
 /// A mesh format; `None` is a picture.
@@ -82,6 +87,14 @@ impl OutputArguments {
         self.size
     }
 
+    /// From where pictures look, if that was said.
+    ///
+    /// # Errors
+    /// [`Exit::Usage`] or [`Exit::File`], reported.
+    pub fn viewpoint(&self, reporter: &Reporter) -> Result<Option<Viewpoint>, Exit> {
+        self.view.as_deref().map(|given| view::read(given, reporter)).transpose()
+    }
+
     /// What to write, checked: formats are known and each place can be written to, so that nobody waits for a result
     /// that cannot be kept.
     ///
@@ -135,7 +148,7 @@ impl OutputArguments {
 /// [`Exit::File`] or [`Exit::NoRenderer`], reported.
 pub fn prepare(
     targets: &[Target],
-    size: Size,
+    shot: Shot,
     with_picture: bool,
     (mesh, faces): (&Mesh, &Faces),
     reporter: &Reporter,
@@ -144,7 +157,7 @@ pub fn prepare(
     if with_picture || targets.iter().any(|target| target.format.is_none()) {
         reporter.progress("drawing the picture".to_owned());
         let began = Instant::now();
-        outputs.picture = Some(picture::picture(mesh, faces, size, reporter)?);
+        outputs.picture = Some(picture::picture(mesh, faces, shot, reporter)?);
         outputs.render_s = began.elapsed().as_secs_f64();
     }
     for Target { path, format } in targets {

@@ -2,8 +2,10 @@
 
 use std::io::Cursor;
 
+use app::camera::Camera;
 use app::render::{self, RenderError};
 use app::scene::{Scene, Style};
+use app::viewpoint::Viewpoint;
 use image::{ImageFormat, RgbaImage};
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
@@ -38,17 +40,34 @@ pub fn keep_driver_quiet() {
     }
 }
 
-/// A picture of a mesh as the window first shows it.
+/// What a picture shall be like.
+#[derive(Debug, Clone, Copy)]
+pub struct Shot {
+    /// Its size.
+    pub size: Size,
+    /// From where it looks; else as the window does at first.
+    pub viewpoint: Option<Viewpoint>,
+}
+
+/// A picture of a mesh.
 ///
 /// # Errors
 /// [`Exit::NoRenderer`], reported.
-pub fn picture(mesh: &Mesh, faces: &Faces, (width, height): Size, reporter: &Reporter) -> Result<RgbaImage, Exit> {
+pub fn picture(mesh: &Mesh, faces: &Faces, shot: Shot, reporter: &Reporter) -> Result<RgbaImage, Exit> {
     let style = Style::default();
-    let size = render::Size::new(width, height);
+    let size = render::Size::new(shot.size.0, shot.size.1);
     let Ok(scene) = Scene::new(mesh, faces, None, &Stop::new()) else {
         return Err(Exit::Budget); // not reached: nobody stops it
     };
-    let camera = scene.standard_view(&style, size.aspect());
+    let standard = scene.standard_view(&style, size.aspect());
+    let camera = match shot.viewpoint {
+        None => standard,
+        Some(Viewpoint::At(camera)) => camera,
+        Some(Viewpoint::From { side, orthographic, up }) => {
+            let camera = Camera { orthographic, ..standard.from_side(side, up) };
+            scene.fit(camera, &style, size.aspect())
+        }
+    };
     render::render_image(&scene, &camera, &style, size).or_else(|problem| {
         let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
         let diagnostic = match problem {

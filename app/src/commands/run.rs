@@ -21,7 +21,7 @@ use vv::source::Sources;
 use vv::stop::Stop;
 
 use super::output::{DEFAULT_SIZE, OutputArguments};
-use super::picture;
+use super::picture::{self, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
@@ -111,6 +111,7 @@ pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
 
 fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> Result<(), Exit> {
     check_streams(arguments, reporter)?;
+    let viewpoint = arguments.output.viewpoint(reporter)?;
     let targets = arguments.output.targets(reporter)?;
     reporter.begin();
     let mut timings = Timings::default();
@@ -166,7 +167,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
 
     let size = arguments.output.size().or(reference.as_ref().and_then(Reference::size)).unwrap_or(DEFAULT_SIZE);
     let with_picture = reference.as_ref().is_some_and(Reference::is_picture);
-    let outputs = output::prepare(&targets, size, with_picture, (&mesh, &faces), reporter)?;
+    let outputs = output::prepare(&targets, Shot { size, viewpoint }, with_picture, (&mesh, &faces), reporter)?;
     timings.export_s = outputs.export_s;
     timings.render_s = outputs.render_s;
     printer.flush(reporter)?;

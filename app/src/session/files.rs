@@ -103,7 +103,7 @@ impl Session {
         }
         self.document.mesh = if program.start.is_some() { MeshSource::Empty } else { super::welcome_mesh() };
         self.running = None; // what is computed for the other mesh shall not be seen
-        self.fit = true;
+        self.fit |= self.frame.is_some(); // before the first picture a viewpoint may have been given
         self.ask_now();
     }
 

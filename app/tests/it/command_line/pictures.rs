@@ -18,6 +18,41 @@ fn a_picture_has_the_size_asked_for() {
     assert!(colors.len() > 2, "the picture is empty");
 }
 
+/// How much of a picture the mesh covers, from 0 to 1.
+fn covered(path: &Path) -> f64 {
+    let picture = image::open(path).unwrap().into_rgba8();
+    let background = |p: &&image::Rgba<u8>| p.0[0].abs_diff(p.0[2]) < 20;
+    1.0 - picture.pixels().filter(background).count() as f64 / f64::from(picture.width() * picture.height())
+}
+
+#[test]
+fn a_picture_is_taken_from_the_viewpoint_asked_for() {
+    let near = "vv view: eye 0 0 3 target 0 0 0 up 0 1 0 orthographic 1\n";
+    let folder = Folder::with(&[("near.txt", near), ("far.txt", "eye 0 0 30, target 0 0 0")]);
+    let shoot = |view: &str| {
+        folder.check(&format!("run move.vv -i octahedron.obj -n 0 -o a.png --size 60x60 --view {view}"), 0, "");
+        covered(&folder.path("a.png"))
+    };
+    assert!(shoot("near.txt") > 0.99);
+    assert!(shoot("far.txt") < 0.05);
+    let front = shoot("front");
+    assert!(front > 0.3 && (front - shoot("top")).abs() < 0.02, "an octahedron looks alike from all its corners");
+    assert!(shoot("isometric") > front + 0.05, "and larger from a face");
+    let mut command = folder.command("mesh convert octahedron.obj -o b.png --size 60x60 --view");
+    assert!(command.arg("front orthographic z-up").status().unwrap().success());
+    assert!(covered(&folder.path("b.png")) > 0.3);
+}
+
+#[test]
+fn what_is_no_viewpoint_is_refused_before_anything_is_run() {
+    let folder = Folder::with(&[("bad.txt", "vv view: eye 0 0 3\n target 0 0 x\n")]);
+    let said = "`frnot` does not belong here\none of front, back, left, right, top, bottom and isometric";
+    folder.check("run endless.vv -i octahedron.obj -o a.png --view frnot", 2, said);
+    let said = "bad.txt:2:13\n`target` is followed by three numbers";
+    folder.check("run endless.vv -i octahedron.obj -o a.png --view bad.txt", 2, said);
+    folder.check("--view sideways", 2, "`sideways` does not belong here");
+}
+
 #[test]
 fn a_picture_goes_to_stdout_as_it_is() {
     let folder = Folder::with(&[]);
