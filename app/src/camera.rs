@@ -113,7 +113,7 @@ pub struct Ray {
 }
 
 /// Opening angle of new cameras: natural proportions, little distortion.
-const FIELD_OF_VIEW: f64 = 0.5;
+pub const FIELD_OF_VIEW: f64 = 0.5;
 
 /// How much room a fitted ball leaves around itself.
 const MARGIN: f64 = 1.1;

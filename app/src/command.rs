@@ -7,6 +7,7 @@
 mod inspecting;
 mod matching;
 mod menus;
+mod view;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -22,7 +23,8 @@ use crate::session::{Purpose, Session};
 
 pub use inspecting::Inspect;
 pub use matching::{Match, find};
-pub use menus::{MENUS, Menu, with_keys};
+pub use menus::{MENUS, Menu, outer, with_keys};
+pub use view::{Toward, ViewAction};
 
 /// A wish.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,6 +130,8 @@ pub enum Command {
     Control,
     /// From where it is seen.
     SetCamera(Camera),
+    /// Something to do with the camera.
+    View(ViewAction),
     /// All of the mesh in sight.
     Fit,
     /// The picture to the clipboard.
@@ -289,6 +293,7 @@ impl Command {
             Self::Undo => ("Undo", "take the last change back", const { &[ctrl(Key::Z)] }),
             Self::Redo => ("Redo", "do again what was undone", const { &[ctrl_shift(Key::Z), ctrl(Key::Y)] }),
             Self::Text(action) => return action.describe(),
+            Self::View(action) => return action.describe(),
             Self::Inspect(inspect) => return inspect.describe(),
             Self::SetReload(Reload::Typed) => ("Run as typed", "run a changed text at each pause in typing", &[]),
             Self::SetReload(Reload::Saved) => ("Run on save", "run a changed text when it is saved", &[]),
@@ -370,6 +375,7 @@ impl Command {
             Self::Stop => session.is_busy() || session.is_playing(),
             Self::Choose(Purpose::ExportMesh) | Self::CopyImage => session.frame().is_some(),
             Self::ForgetRecent => !session.recent().is_empty(),
+            Self::View(action) => action.is_enabled(session),
             Self::Undo => session.can_undo(),
             Self::Redo => session.can_redo(),
             Self::Text(TextAction::NextProblem | TextAction::PreviousProblem) => session.has_problems_here(),
@@ -390,6 +396,7 @@ impl Command {
             Self::Vertices => style.vertices,
             Self::Smooth => style.smooth,
             Self::Control => style.control,
+            Self::View(action) => return action.is_on(session),
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,
@@ -442,7 +449,9 @@ impl TextAction {
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
     let function = matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11);
-    shortcut.modifiers.command || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
+    // Ctrl with an arrow goes from word to word.
+    let walks = matches!(shortcut.logical_key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown);
+    shortcut.modifiers.command && !walks || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod convert;
 mod fmt;
 mod info;
 mod input;
+mod lsp;
 mod open;
 mod output;
 mod picture;
@@ -81,6 +82,10 @@ enum Command {
     /// Replaces each file, whole or not at all, unless it is laid out so already; `-` goes from stdin to stdout. A program
     /// that cannot be read without doubt is left as it is.
     Fmt(fmt::Arguments),
+    /// Help an editor: errors as they are typed, meanings, completion, names across files, layout.
+    ///
+    /// A language server. Editors start it and speak with it over stdin and stdout (LSP 3.17).
+    Lsp(lsp::Arguments),
     /// Look at mesh files and convert them.
     #[command(subcommand)]
     Mesh(MeshCommand),
@@ -157,6 +162,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(arguments)) => run::run(&arguments, began),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),
+        Some(Command::Lsp(arguments)) => lsp::lsp(&arguments),
         Some(Command::Mesh(MeshCommand::Info(arguments))) => info::info(&arguments),
         Some(Command::Mesh(MeshCommand::Convert(arguments))) => convert::convert(&arguments),
     };

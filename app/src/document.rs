@@ -27,6 +27,8 @@ pub struct Document {
     pub params: BTreeMap<String, Value>,
     /// Sets of such values that were given a name.
     pub param_sets: BTreeMap<String, BTreeMap<String, Value>>,
+    /// Viewpoints that were given a name.
+    pub views: BTreeMap<String, Camera>,
     /// Which generation is wanted.
     pub generation: u64,
     /// How it is drawn.

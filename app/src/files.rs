@@ -6,6 +6,7 @@ use std::collections::{HashMap, HashSet};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::io::{Format, Place, ReadError, ReadOptions};
@@ -120,10 +121,28 @@ pub fn read_program(path: &Path) -> Result<String, FileError> {
 /// for, whether or not there is a file.
 #[must_use]
 pub fn compile(path: &Path, text: &str) -> (Compilation, Vec<PathBuf>) {
+    let Compiled { compilation, looked_at, .. } = compile_with(path, text, &|_| None);
+    (compilation, looked_at)
+}
+
+/// What became of a text and of where its files are.
+#[derive(Debug)]
+pub struct Compiled {
+    /// What became of it.
+    pub compilation: Compilation,
+    /// Where each file is, by the name that diagnostics call it; those that ship with vv are nowhere.
+    pub paths: HashMap<String, PathBuf>,
+    /// The files to watch, as [`compile`] returns them.
+    pub looked_at: Vec<PathBuf>,
+}
+
+/// As [`compile`], but of a file that `unsaved` has a text for that is read and not what is on disk.
+#[must_use]
+pub fn compile_with(path: &Path, text: &str, unsaved: &dyn Fn(&Path) -> Option<Arc<str>>) -> Compiled {
     let name = shown(path);
     let mut includes = Includes::new(path, &name);
-    let compilation = vv::compile(&name, text, &mut |from, wanted| includes.find(from, wanted));
-    (compilation, includes.looked_at)
+    let compilation = vv::compile(&name, text, &mut |from, wanted| includes.find(from, wanted, unsaved));
+    Compiled { compilation, paths: includes.paths, looked_at: includes.looked_at }
 }
 
 /// Finds included texts and remembers what they are called.
@@ -149,7 +168,12 @@ impl Includes {
         Self { paths: HashMap::from([(name.to_owned(), base.to_owned())]), names, looked_at, known }
     }
 
-    fn find(&mut self, from: &str, wanted: &str) -> Result<Included, String> {
+    fn find(
+        &mut self,
+        from: &str,
+        wanted: &str,
+        unsaved: &dyn Fn(&Path) -> Option<Arc<str>>,
+    ) -> Result<Included, String> {
         // A shipped program includes shipped programs only: what it means must not depend on where it is used.
         let Some(from_path) = self.paths.get(from) else {
             return library::include(wanted).ok_or_else(|| format!("vv ships with no program `{wanted}`"));
@@ -163,7 +187,10 @@ impl Includes {
                 format!("there is no file `{}`, and vv ships with no program of this name", path.display())
             });
         }
-        let text = read_program(&path).map_err(|error| error.located().message)?;
+        let text = match unsaved(&path) {
+            Some(text) => text.to_string(),
+            None => read_program(&path).map_err(|error| error.located().message)?,
+        };
         let canonical = path.canonicalize().unwrap_or_else(|_| path.clone());
         let name = self.names.entry(canonical).or_insert_with(|| path.display().to_string()).clone();
         self.paths.entry(name.clone()).or_insert(path);
@@ -402,13 +429,13 @@ mod tests {
         let main = folder.path().join("a.vv");
         fs::write(&main, "A").unwrap();
         let mut includes = Includes::new(&main, "a.vv");
-        let b = includes.find("a.vv", "sub/b.vv").unwrap();
+        let b = includes.find("a.vv", "sub/b.vv", &|_| None).unwrap();
         assert_eq!(b.text, "B");
-        let c = includes.find(&b.name, "c.vv").unwrap();
+        let c = includes.find(&b.name, "c.vv", &|_| None).unwrap();
         assert_eq!(c.text, "C");
-        assert_eq!(includes.find("a.vv", "sub/../sub/c.vv").unwrap().name, c.name);
-        assert_eq!(includes.find(&b.name, "../a.vv").unwrap().name, "a.vv");
-        assert!(includes.find("a.vv", "none.vv").unwrap_err().contains("none.vv"));
+        assert_eq!(includes.find("a.vv", "sub/../sub/c.vv", &|_| None).unwrap().name, c.name);
+        assert_eq!(includes.find(&b.name, "../a.vv", &|_| None).unwrap().name, "a.vv");
+        assert!(includes.find("a.vv", "none.vv", &|_| None).unwrap_err().contains("none.vv"));
         assert!(includes.looked_at.contains(&folder.path().join("none.vv")));
     }
 }

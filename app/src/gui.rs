@@ -35,6 +35,7 @@ mod theme;
 mod timeline;
 mod toolbar;
 mod viewport;
+mod views;
 mod widgets;
 
 use std::fmt;
@@ -329,6 +330,12 @@ impl eframe::App for App {
         let changed = !commands.is_empty();
         for command in commands {
             self.session.apply(command);
+        }
+        if let Some(text) = self.session.copied.take() {
+            ui.ctx().copy_text(text);
+        }
+        if std::mem::take(&mut self.session.asks_clipboard) {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::RequestPaste);
         }
         if changed {
             self.session.start(); // the worker need not wait for the next frame

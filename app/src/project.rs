@@ -39,6 +39,8 @@ pub struct Project {
     #[serde(default)]
     param_sets: BTreeMap<String, BTreeMap<String, Setting>>,
     #[serde(default)]
+    views: BTreeMap<String, Camera>,
+    #[serde(default)]
     generation: u64,
     #[serde(default)]
     style: Style,
@@ -68,6 +70,7 @@ impl Project {
             rule: document.rule.clone(),
             params: settings(&document.params),
             param_sets: document.param_sets.iter().map(|(name, set)| (name.clone(), settings(set))).collect(),
+            views: document.views.clone(),
             generation: document.generation,
             style: document.style,
             camera: document.camera,
@@ -93,6 +96,7 @@ impl Project {
             rule: self.rule,
             params: values(self.params),
             param_sets: self.param_sets.into_iter().map(|(name, set)| (name, values(set))).collect(),
+            views: self.views,
             generation: self.generation,
             style: self.style,
             camera: self.camera,
@@ -122,7 +126,7 @@ impl Project {
         if project.version > VERSION {
             return Err("was made by a later version of vv".to_owned());
         }
-        if !project.camera.is_finite() {
+        if !project.views.values().chain([&project.camera]).all(Camera::is_finite) {
             return Err("is no project of vv: its view is nowhere".to_owned());
         }
         project.each_path(|path| folder.map_or_else(|| path.to_owned(), |folder| folder.join(path)));
@@ -187,6 +191,7 @@ mod tests {
             rule: Some("f".to_owned()),
             param_sets: [("wide".to_owned(), params.clone())].into(),
             params,
+            views: [("side".to_owned(), Camera::standard(Sphere { center: DVec3::X, radius: 1.0 }, 1.0))].into(),
             generation: 4,
             style: Style { smooth: true, ..Style::default() },
             camera: Camera::standard(Sphere { center: DVec3::ONE, radius: 2.0 }, 1.5),

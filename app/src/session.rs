@@ -11,6 +11,7 @@ mod problem;
 mod reading;
 mod text;
 mod undo;
+mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -26,6 +27,7 @@ use vv::mesh::Value;
 use crate::camera::Camera;
 use crate::command::{Command, Panel, Reload, TextAction, ThemeChoice};
 use crate::document::{Document, MeshSource, ProgramText};
+use crate::navigation::Navigation;
 use crate::render::Size;
 use crate::scene::{Sphere, Style};
 use crate::store::{Orphan, Store};
@@ -181,6 +183,8 @@ pub struct Session {
     pub reload: Reload,
     /// How many generations follow each other in a second when playing, at most.
     pub speed: f64,
+    /// What hands do to the view.
+    pub navigation: Navigation,
     /// A place of the program that the editor shall show; the editor takes it.
     pub reveal: Option<Reveal>,
     /// What the editor shall do; the editor takes it.
@@ -189,6 +193,12 @@ pub struct Session {
     pub view: Option<(Size, Style)>,
     /// The viewport shall bring all in sight; the viewport takes it.
     pub fit: bool,
+    /// Whether that was asked for, else the mesh is another one.
+    pub asked_to_fit: bool,
+    /// Text for the clipboard; the window takes it.
+    pub copied: Option<String>,
+    /// The window shall ask the clipboard for its text; it takes this.
+    pub asks_clipboard: bool,
     /// What is looked at closely.
     pub inspection: Inspection,
 
@@ -225,6 +235,9 @@ pub struct Session {
     chooser: Option<Chooser>,
     background: Vec<Receiver<Result<String, String>>>,
     notice: Option<(Severity, String, Instant)>,
+    flight: Option<view::Flight>,
+    /// When a viewpoint was asked for from the clipboard.
+    awaited: Option<Instant>,
     /// Kept, because it hands out what was copied.
     clipboard: Arc<Mutex<Option<arboard::Clipboard>>>,
     wants_quit: bool,
@@ -251,6 +264,7 @@ impl Session {
             theme: ThemeChoice::System,
             panels: Panels::default(),
             speed: SPEED,
+            navigation: Navigation { glide: false, ..Navigation::default() },
             full_screen: false,
             reference: false,
             dialog: None,
@@ -259,6 +273,9 @@ impl Session {
             text_actions: Vec::new(),
             view: None,
             fit: true,
+            asked_to_fit: false,
+            copied: None,
+            asks_clipboard: false,
             inspection: Inspection::default(),
             store: None,
             orphan: None,
@@ -286,6 +303,8 @@ impl Session {
             chooser: None,
             background: Vec::new(),
             notice: None,
+            flight: None,
+            awaited: None,
             clipboard: Arc::default(),
             wants_quit: false,
         };
@@ -433,11 +452,9 @@ impl Session {
             Command::Vertices => self.change_style(|s| s.vertices = !s.vertices),
             Command::Smooth => self.change_style(|s| s.smooth = !s.smooth),
             Command::Control => self.change_style(|s| s.control = !s.control),
-            Command::SetCamera(camera) => {
-                self.land();
-                self.document.camera = camera;
-            }
-            Command::Fit => self.fit = true,
+            Command::SetCamera(camera) => self.set_camera(camera),
+            Command::View(action) => self.change_view(action),
+            Command::Fit => (self.fit, self.asked_to_fit) = (true, true),
             Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,
             Command::FullScreen => self.full_screen = !self.full_screen,
@@ -463,6 +480,7 @@ impl Session {
         self.take_choice();
         self.take_background();
         self.play();
+        let flight = self.glide();
         let keep = self.keep();
         let motion = self.animate();
         self.ask();
@@ -474,7 +492,7 @@ impl Session {
         let grace = self.running.as_ref().filter(|_| self.due.is_some()).map(|r| r.since + GRACE);
         let notice = self.notice.as_ref().map(|(.., since)| *since + NOTICE);
         let clock = self.running.as_ref().map(|_| now + Duration::from_millis(100));
-        let next = [self.due.max(grace), beat, notice, clock, keep, motion].into_iter().flatten().min()?;
+        let next = [self.due.max(grace), beat, notice, clock, keep, flight, motion].into_iter().flatten().min()?;
         Some(next.saturating_duration_since(now).max(Duration::from_millis(5)))
     }
 
@@ -501,6 +519,7 @@ fn welcome(refined: bool) -> Document {
         rule: None,
         params: BTreeMap::<String, Value>::new(),
         param_sets: BTreeMap::new(),
+        views: BTreeMap::new(),
         generation: if refined { 2 } else { 0 },
         style: Style { control: true, ..Style::default() },
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::command::{Reload, ThemeChoice};
 use crate::files;
+use crate::navigation::Navigation;
 use crate::project::Project;
 use crate::session::Panels;
 
@@ -33,6 +34,8 @@ pub struct Settings {
     pub speed: f64,
     /// Files that were opened or saved, the last one first.
     pub recent: Vec<PathBuf>,
+    /// What hands do to the view.
+    pub navigation: Navigation,
 }
 
 impl Default for Settings {
@@ -43,6 +46,7 @@ impl Default for Settings {
             panels: Panels::default(),
             speed: crate::session::SPEED,
             recent: Vec::new(),
+            navigation: Navigation::default(),
         }
     }
 }
@@ -243,6 +247,7 @@ mod tests {
             rule: None,
             params: Default::default(),
             param_sets: Default::default(),
+            views: Default::default(),
             generation: 0,
             style: Style::default(),
             camera: Camera::standard(Sphere { center: glam::DVec3::ZERO, radius: 1.0 }, 1.0),

@@ -82,6 +82,11 @@ impl Assist {
         &self.text
     }
 
+    /// What it declares itself, in its order.
+    pub fn declared(&self) -> impl Iterator<Item = &Symbol> {
+        self.symbols.iter().filter(|s| s.place.is_some())
+    }
+
     /// What can stand where `at` is, beginning with what stands before it.
     #[must_use]
     pub fn complete(&self, at: usize) -> Completions {
@@ -124,9 +129,11 @@ impl Assist {
         }
         let (range, class) = self.tokens.get(i)?.clone();
         let word = &self.text[range.clone()];
+        if let Some(symbol) = self.symbol(i) {
+            return Some(Meaning { range, usage: symbol.usage.clone(), doc: symbol.doc.clone() });
+        }
         let meaning = |usage: String, doc: &str| Some(Meaning { range: range.clone(), usage, doc: doc.to_owned() });
         let known = |word: &str| words::find(word).and_then(|w| meaning(w.usage.to_owned(), w.doc));
-        let declared = |symbol: &Symbol| meaning(symbol.usage.clone(), &symbol.doc);
         let number = |word: &str| {
             let n = NUMBERS.iter().find(|n| n.name == word)?;
             meaning(format!("double {} = {}", n.name, n.value), n.doc)
@@ -136,25 +143,38 @@ impl Assist {
             TokenClass::Old => known("`"),
             TokenClass::Literal => known(word).or_else(|| number(word)),
             TokenClass::Property if word == "pos" => known("$pos"),
-            TokenClass::Property => self.symbols.iter().find(|s| s.is_property() && s.name == word).and_then(declared),
-            TokenClass::Function => self.named(word, at).and_then(declared).or_else(|| {
+            TokenClass::Function => {
                 let signatures: Vec<String> = Builtin::named(word).map(|b| b.to_string()).collect();
                 meaning(signatures.join("\n"), Builtin::named(word).next()?.doc())
-            }),
-            TokenClass::Name => self.named(word, at).and_then(declared).or_else(|| number(word)),
+            }
+            TokenClass::Name => number(word),
             _ => None,
         }
+    }
+
+    /// What the name at a place, or right before it, stands for: its own stretch of the text, and its declaration, which
+    /// may be in an included file.
+    #[must_use]
+    pub fn symbol_at(&self, at: usize) -> Option<(Range<usize>, &Symbol)> {
+        // The name behind the place is meant first.
+        let touching = |i: &usize| self.tokens[*i].0.start <= at && at <= self.tokens[*i].0.end;
+        let (i, symbol) = (0..self.tokens.len()).rev().filter(touching).find_map(|i| Some((i, self.symbol(i)?)))?;
+        Some((self.tokens[i].0.clone(), symbol))
     }
 
     /// Where the name at a place is declared, if it is in this text.
     #[must_use]
     pub fn declaration(&self, at: usize) -> Option<Range<usize>> {
-        let (range, class) = self.tokens.iter().find(|(range, _)| range.start <= at && at <= range.end)?;
-        let word = &self.text[range.clone()];
-        match class {
-            TokenClass::Property => self.symbols.iter().find(|s| s.is_property() && s.name == word)?.place.clone(),
-            _ => self.named(word, range.start)?.place.clone(),
-        }
+        self.symbol_at(at)?.1.place.clone()
+    }
+
+    /// Wherever a symbol of this text, or of one that it includes, is named in this text, its declarations among them.
+    /// Functions of one name count as one. Linear in the text for each of its names.
+    #[must_use]
+    pub fn uses(&self, symbol: &Symbol) -> Vec<Range<usize>> {
+        let is_it = |i: &usize| self.text[self.tokens[*i].0.clone()] == symbol.name;
+        let means_it = |i: &usize| self.symbol(*i).is_some_and(|s| s.is_same(symbol));
+        (0..self.tokens.len()).filter(is_it).filter(means_it).map(|i| self.tokens[i].0.clone()).collect()
     }
 
     /// The bracket at a place, right before or behind it, and the one that belongs to it; both alike if there is none.
@@ -195,6 +215,26 @@ impl Assist {
         found
     }
 
+    /// What a token stands for, if it is a name with a declaration.
+    fn symbol(&self, token: usize) -> Option<&Symbol> {
+        let (range, class) = self.tokens.get(token)?;
+        if let Some(declared) = self.symbols.iter().find(|s| s.place.as_ref() == Some(range)) {
+            return Some(declared);
+        }
+        let before = token.checked_sub(1).map(|i| self.tokens[i].0.clone());
+        let word = &self.text[range.clone()];
+        match class {
+            TokenClass::Property => {
+                let kind = SymbolKind::Property(self.element(self.text[..before?.start].trim_end()));
+                self.symbols.iter().find(|s| s.kind == kind && s.name == word)
+            }
+            // A coordinate.
+            TokenClass::Name if before.is_some_and(|before| &self.text[before] == ".") => None,
+            TokenClass::Name | TokenClass::Function => self.named(word, range.start),
+            _ => None,
+        }
+    }
+
     /// What a name stands for at a place: the innermost declaration.
     fn named(&self, name: &str, at: usize) -> Option<&Symbol> {
         let visible = self.symbols.iter().filter(|s| s.name == name && !s.is_property() && s.is_visible(at));
@@ -203,17 +243,7 @@ impl Assist {
 
     /// The properties of what stands before the `$`.
     fn properties(&self, leading: &str) -> Vec<Completion> {
-        let of = leading.strip_suffix('$').unwrap_or_default().trim_end();
-        let word = of.rsplit(|c: char| c != '_' && !c.is_alphanumeric()).next().unwrap_or_default();
-        let is_edge = of.ends_with(')') && of.rsplit('(').next().is_some_and(|inside| inside.contains('|'));
-        let is_mesh = self.named(word, of.len()).is_some_and(|s| s.is_mesh);
-        let element = if is_edge {
-            Element::Edge
-        } else if is_mesh {
-            Element::Mesh
-        } else {
-            Element::Vertex
-        };
+        let element = self.element(leading.strip_suffix('$').unwrap_or_default().trim_end());
         let mut entries = Vec::new();
         if element == Element::Vertex
             && let Some(position) = words::find("$pos")
@@ -223,6 +253,20 @@ impl Assist {
         let declared = self.symbols.iter().filter(|s| s.kind == SymbolKind::Property(element));
         entries.extend(declared.map(|s| Completion::of_symbol(s, TokenClass::Property)));
         entries
+    }
+
+    /// What kind of thing an expression that ends a text stands for.
+    fn element(&self, of: &str) -> Element {
+        let word = of.rsplit(|c: char| c != '_' && !c.is_alphanumeric()).next().unwrap_or_default();
+        let is_edge = of.ends_with(')') && of.rsplit('(').next().is_some_and(|inside| inside.contains('|'));
+        let is_mesh = self.named(word, of.len()).is_some_and(|s| s.is_mesh);
+        if is_edge {
+            Element::Edge
+        } else if is_mesh {
+            Element::Mesh
+        } else {
+            Element::Vertex
+        }
     }
 
     /// Names, functions and words, where one of them begins at `start`.

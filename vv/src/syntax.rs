@@ -28,6 +28,13 @@ pub fn all_words() -> impl Iterator<Item = &'static str> {
     lists.into_iter().flatten().copied().chain([words::FACES])
 }
 
+/// Whether something can be called so.
+#[must_use]
+pub fn is_name(word: &str) -> bool {
+    let is_alike = word.starts_with(|c: char| c == '_' || c.is_alphabetic());
+    is_alike && word.chars().all(|c| c == '_' || c.is_alphanumeric()) && !words::is_reserved(word)
+}
+
 /// What a stretch of text is, for colouring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TokenClass {

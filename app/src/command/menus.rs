@@ -1,6 +1,8 @@
 //! Where each command stands: the menus, which the palette, the cheat sheet and the keys go by as well.
 
-use super::{Command, Inspect, Panel, Reload, TextAction, ThemeChoice};
+use super::{Command, Inspect, Panel, Reload, TextAction, ThemeChoice, Toward, ViewAction};
+use crate::camera::{Side, Up};
+use crate::navigation::{Preset, Turning};
 use crate::session::Purpose;
 
 /// A menu.
@@ -82,6 +84,56 @@ pub const MENUS: &[Menu] = &[
         ],
     },
     Menu {
+        title: "Camera",
+        groups: &[
+            &[
+                Command::View(ViewAction::From(Side::Front)),
+                Command::View(ViewAction::From(Side::Back)),
+                Command::View(ViewAction::From(Side::Left)),
+                Command::View(ViewAction::From(Side::Right)),
+                Command::View(ViewAction::From(Side::Top)),
+                Command::View(ViewAction::From(Side::Bottom)),
+                Command::View(ViewAction::From(Side::Isometric)),
+            ],
+            &[Command::View(ViewAction::Orthographic)],
+            &[Command::View(ViewAction::Copy), Command::View(ViewAction::Paste)],
+        ],
+    },
+    Menu {
+        title: "Move",
+        groups: &[
+            &[
+                Command::View(ViewAction::Turn(Toward::Left)),
+                Command::View(ViewAction::Turn(Toward::Right)),
+                Command::View(ViewAction::Turn(Toward::Up)),
+                Command::View(ViewAction::Turn(Toward::Down)),
+            ],
+            &[
+                Command::View(ViewAction::Shift(Toward::Left)),
+                Command::View(ViewAction::Shift(Toward::Right)),
+                Command::View(ViewAction::Shift(Toward::Up)),
+                Command::View(ViewAction::Shift(Toward::Down)),
+            ],
+            &[Command::View(ViewAction::Nearer), Command::View(ViewAction::Farther)],
+        ],
+    },
+    Menu {
+        title: "Navigation",
+        groups: &[
+            &[
+                Command::View(ViewAction::SetPreset(Preset::Vv)),
+                Command::View(ViewAction::SetPreset(Preset::Blender)),
+                Command::View(ViewAction::SetPreset(Preset::Maya)),
+            ],
+            &[
+                Command::View(ViewAction::SetTurning(Turning::Arcball)),
+                Command::View(ViewAction::SetTurning(Turning::Turntable)),
+            ],
+            &[Command::View(ViewAction::SetUp(Up::Y)), Command::View(ViewAction::SetUp(Up::Z))],
+            &[Command::View(ViewAction::Gliding)],
+        ],
+    },
+    Menu {
         title: "Inspect",
         groups: &[
             &[
@@ -100,6 +152,12 @@ pub const MENUS: &[Menu] = &[
     },
     Menu { title: "Help", groups: &[&[Command::Palette, Command::CheatSheet, Command::Reference]] },
 ];
+
+/// The menu that another one is part of; `None` for those that stand in the bar.
+#[must_use]
+pub fn outer(title: &str) -> Option<&'static str> {
+    matches!(title, "Move" | "Navigation").then_some("Camera")
+}
 
 /// The commands that keys mean.
 pub fn with_keys() -> impl Iterator<Item = &'static Command> {

@@ -4,8 +4,9 @@ use eframe::egui::{
     Color32, Context, Frame, Id, Key, Margin, Modal, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2,
 };
 
-use super::{clicks, viewport};
+use super::clicks;
 use crate::command::{Command, MENUS, find};
+use crate::navigation::Preset;
 use crate::session::{Dialog, Session};
 
 /// Keys that mean more than one command.
@@ -13,6 +14,7 @@ const MORE: &[(&str, &str)] = &[("0 … 9", "go to this generation")];
 
 /// Shows it.
 pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+    let preset = session.navigation.preset;
     let Some(Dialog::CheatSheet { query }) = &mut session.dialog else { return };
     let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
     let response = Modal::new(Id::unique("keys")).frame(frame).show(ctx, |ui| {
@@ -26,7 +28,7 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
             field.accessible_name("Find a key");
         });
         ui.add_space(10.0);
-        let sections = sections(ui, query);
+        let sections = sections(ui, preset, query);
         let height = (room.y - 170.0).clamp(120.0, 640.0);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             if sections.is_empty() {
@@ -52,7 +54,7 @@ struct Section {
     rows: Vec<(String, String)>,
 }
 
-fn sections(ui: &Ui, query: &str) -> Vec<Section> {
+fn sections(ui: &Ui, preset: Preset, query: &str) -> Vec<Section> {
     let mut sections: Vec<Section> = MENUS
         .iter()
         .map(|menu| {
@@ -69,7 +71,8 @@ fn sections(ui: &Ui, query: &str) -> Vec<Section> {
     if let Some(run) = sections.iter_mut().find(|s| s.title == "Run") {
         run.rows.extend(fixed(MORE));
     }
-    sections.push(Section { title: "In the picture", rows: fixed(&[viewport::HANDS, clicks::HANDS].concat()) });
+    let hands = preset.explained().into_iter().map(|(how, what)| (how, what.to_owned()));
+    sections.push(Section { title: "In the picture", rows: hands.chain(fixed(clicks::HANDS)).collect() });
     for section in &mut sections {
         section.rows.retain(|(keys, label)| find(query, &format!("{label} {keys}")).is_some());
     }

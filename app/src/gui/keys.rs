@@ -3,7 +3,7 @@
 use eframe::egui::text_selection::LabelSelectionState;
 use eframe::egui::{Context, Event, Key, Modifiers};
 
-use crate::command::{self, Command, Inspect};
+use crate::command::{self, Command, Inspect, ViewAction};
 use crate::session::Session;
 
 /// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed; `escape_is_taken` if
@@ -30,7 +30,8 @@ pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &
                 continue;
             }
             // Shift makes another key of a letter: `S` is not `s`.
-            let sign = shortcut.logical_key == Key::Questionmark; // on many keyboards above another sign
+            // On many keyboards above another sign.
+            let sign = matches!(shortcut.logical_key, Key::Questionmark | Key::Plus);
             let exact = ctx.input(|i| {
                 (!i.modifiers.shift || shortcut.modifiers.shift || sign)
                     && (!i.modifiers.alt || shortcut.modifiers.alt || sign)
@@ -43,6 +44,9 @@ pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &
                 });
             }
         }
+    }
+    if let Some(text) = pasted_viewpoint(ctx, session, typing) {
+        commands.push(Command::View(ViewAction::Show(text)));
     }
     if !typing {
         // What Escape would stop, goes first.
@@ -76,6 +80,19 @@ pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &
             }
         }
     }
+}
+
+/// Takes a viewpoint that comes from the clipboard: one that was asked for, or one that nobody else can be meant by.
+fn pasted_viewpoint(ctx: &Context, session: &Session, typing: bool) -> Option<String> {
+    let asked = session.awaits_viewpoint();
+    let is_meant = |text: &str| asked || !typing && text.trim_start().starts_with("vv view:");
+    ctx.input_mut(|i| {
+        let at = i.events.iter().position(|event| matches!(event, Event::Paste(text) if is_meant(text)))?;
+        match i.events.remove(at) {
+            Event::Paste(text) => Some(text),
+            _ => None,
+        }
+    })
 }
 
 /// Opens what was dropped on the window.

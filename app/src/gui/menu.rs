@@ -5,8 +5,9 @@ use std::sync::LazyLock;
 
 use eframe::egui::{MenuBar, Ui};
 
+use super::views;
 use super::widgets::menu_item;
-use crate::command::{Command, MENUS, Menu};
+use crate::command::{Command, MENUS, Menu, outer};
 use crate::document::{MeshSource, NOWHERE};
 use crate::files;
 use crate::library::{self, Shipped};
@@ -15,7 +16,7 @@ use crate::session::Session;
 /// Shows it.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
-        for menu in MENUS {
+        for menu in MENUS.iter().filter(|menu| outer(menu.title).is_none()) {
             ui.menu_button(menu.title, |ui| {
                 ui.set_min_width(210.0);
                 if menu.title == "File" && !session.recent().is_empty() {
@@ -23,6 +24,12 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                     ui.separator();
                 }
                 entries(ui, session, commands, menu);
+                for inner in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
+                    ui.menu_button(inner.title, |ui| entries(ui, session, commands, inner));
+                }
+                if menu.title == "Camera" {
+                    ui.menu_button("Saved viewpoints", |ui| views::show(ui, session, commands));
+                }
             });
             if menu.title == "File" {
                 ui.menu_button("Examples", |ui| examples(ui, session, commands));

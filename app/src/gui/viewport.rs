@@ -1,38 +1,27 @@
-//! The picture and the hands on it.
-//!
-//! Left drag turns; right, middle and Shift+left drag shift; the wheel zooms to the cursor; a double click makes the point
-//! under it the pivot.
+//! The picture and the hands on it: [`crate::navigation`] says what they do.
+
+mod hands;
 
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align2, Color32, CornerRadius, CursorIcon, FontId, Margin, Pos2, Rect, Response, Role, Sense, TextStyle, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    self, Align2, Color32, CornerRadius, FontId, Margin, Pos2, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 use eframe::egui_wgpu::RenderState;
-use glam::DVec2;
 use vv::diagnostic::Severity;
 
 use super::overlay::Overlay;
 use super::picture::Picture;
 use super::widgets::{grouped, menu_item, seconds};
 use super::{clicks, marks, theme};
-use crate::camera::{Camera, picture_point};
-use crate::command::{Command, Inspect};
+use crate::command::{Command, Inspect, ViewAction};
 use crate::render::{RenderError, Size};
-use crate::scene::{Pointer, Style, Theme};
+use crate::scene::{Style, Theme};
 use crate::session::{Session, Stale};
 use crate::trace;
 use crate::worker::Frame;
 
-/// What the mouse does, for the cheat sheet.
-pub const HANDS: &[(&str, &str)] = &[
-    ("left drag", "turn"),
-    ("right drag, middle drag, Shift + left drag", "shift"),
-    ("wheel, pinch", "zoom to the pointer"),
-    ("double click", "turn around this point"),
-    ("right click", "open a menu"),
-];
+use hands::Hands;
 
 /// What a right click offers.
 const MENU: &[&[Command]] = &[
@@ -45,6 +34,7 @@ const MENU: &[&[Command]] = &[
 /// The panel's own state.
 pub struct Viewport {
     picture: Picture,
+    hands: Hands,
 }
 
 impl Viewport {
@@ -53,7 +43,7 @@ impl Viewport {
     /// # Errors
     /// If the driver refuses a pipeline.
     pub fn new(state: RenderState, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, RenderError> {
-        Ok(Self { picture: Picture::new(state, wake)? })
+        Ok(Self { picture: Picture::new(state, wake)?, hands: Hands::default() })
     }
 
     /// Shows it. Takes [`Session::fit`].
@@ -75,10 +65,16 @@ impl Viewport {
         let _span = trace::span("window: viewport");
         if session.fit && !session.is_busy() && frame.scene.fits_at_once() {
             session.fit = false;
-            camera = frame.scene.fit(camera, &style, size.aspect());
-            commands.push(Command::SetCamera(camera));
+            let fitted = frame.scene.fit(session.aim(), &style, size.aspect());
+            // What was there before is left by gliding; what is new is seen at once.
+            if std::mem::take(&mut session.asked_to_fit) {
+                commands.push(Command::View(ViewAction::Glide(fitted)));
+            } else {
+                camera = fitted;
+                commands.push(Command::SetCamera(camera));
+            }
         }
-        if let Some(moved) = hands(ui, &response, rect, camera, &frame, &style) {
+        if let Some(moved) = self.hands.moved(ui, &response, &session.navigation, camera, &frame.scene, &style) {
             camera = moved;
             commands.push(Command::SetCamera(camera));
         }
@@ -120,39 +116,6 @@ fn pixels(rect: Rect, scale: f32) -> Size {
 
 fn theme_of(ui: &Ui) -> Theme {
     if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light }
-}
-
-/// What dragging, scrolling and clicking make of the camera.
-fn hands(ui: &Ui, response: &Response, rect: Rect, camera: Camera, frame: &Frame, style: &Style) -> Option<Camera> {
-    let place = |pos: Pos2| {
-        let at = pos - rect.min;
-        let of = |v: Vec2| DVec2::new(f64::from(v.x), f64::from(v.y));
-        picture_point(of(at), of(rect.size()))
-    };
-    let (primary, shift, delta) = ui.input(|i| (i.pointer.primary_down(), i.modifiers.shift, i.pointer.delta()));
-    if response.dragged()
-        && let Some(pointer) = response.interact_pointer_pos()
-        && delta != Vec2::ZERO
-    {
-        let (from, to) = (place(pointer - delta), place(pointer));
-        let turn = primary && !shift;
-        ui.ctx().set_cursor_icon(if turn { CursorIcon::Grabbing } else { CursorIcon::AllScroll });
-        return Some(if turn { camera.orbit(from, to) } else { camera.pan(from, to) });
-    }
-    let pointer = response.hover_pos()?;
-    if response.double_clicked() {
-        let _span = trace::span("window: picking");
-        let spread = camera.spread(f64::from(2.0 * clicks::NEAR / rect.height()));
-        let pivot = frame.scene.pick(&Pointer { ray: camera.ray(place(pointer)), spread, opaque: true })?.point;
-        // The eye stays where it is in the direction it looks; only what it turns around changes.
-        return Some(Camera { pivot, ..camera });
-    }
-    let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
-    if scroll == 0.0 && pinch == 1.0 {
-        return None;
-    }
-    let factor = (-f64::from(scroll) / 300.0).exp() / f64::from(pinch);
-    Some(camera.zoom(place(pointer), factor, frame.scene.bounds(style)))
 }
 
 /// What stands over the picture.

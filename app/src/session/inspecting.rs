@@ -1,4 +1,4 @@
-//! Looking closer: what is selected, the walk that is watched, the flight to a place.
+//! Looking closer: what is selected, the walk that is watched.
 
 use std::time::{Duration, Instant};
 
@@ -16,10 +16,6 @@ use crate::inspect::walk::Walk;
 use crate::scene::Sphere;
 use crate::worker::{Failed, Frame};
 
-/// How long a flight takes.
-const FLIGHT: Duration = Duration::from_millis(350);
-/// Between two pictures of a flight.
-const PICTURE: Duration = Duration::from_millis(16);
 /// Between two arrows of a walk that is played.
 const ARROW: Duration = Duration::from_millis(650);
 /// Neighbours of a vertex that decide how close a flight comes.
@@ -40,7 +36,6 @@ pub struct Inspection {
     pub listing: bool,
     /// Where the program failed.
     pub fault: Option<Fault>,
-    flight: Option<Flight>,
 }
 
 /// Edmonds' walk, watched step by step.
@@ -67,13 +62,6 @@ pub struct Fault {
     pub message: String,
     /// The vertices that the error names; some may have been born in the step.
     pub vertices: Vec<Vertex>,
-}
-
-#[derive(Debug)]
-struct Flight {
-    from: Camera,
-    to: Camera,
-    since: Instant,
 }
 
 impl Session {
@@ -235,38 +223,17 @@ impl Session {
         let Some(frame) = &self.frame else { return };
         let aspect = self.view.map_or(1.0, |(size, _)| size.aspect());
         let Some((ball, normal)) = ball(&self.selected(), frame) else { return };
-        let from = self.document.camera;
+        let from = self.aim();
         let turned = normal.map_or(from, |normal| facing(from, normal));
         let to = turned.fit(ball, aspect);
         if to.is_finite() {
-            self.inspection.flight = Some(Flight { from, to, since: Instant::now() });
+            self.glide_to(to);
         }
-    }
-
-    /// The user moves the view: no flight any more.
-    pub(super) fn land(&mut self) {
-        self.inspection.flight = None;
-    }
-
-    /// Whether the view is on its way to a place.
-    #[must_use]
-    pub fn is_flying(&self) -> bool {
-        self.inspection.flight.is_some()
     }
 
     /// Moves what moves by itself; when to call again.
     pub(super) fn animate(&mut self) -> Option<Instant> {
         let now = Instant::now();
-        let mut next = None;
-        if let Some(flight) = &self.inspection.flight {
-            let t = now.duration_since(flight.since).as_secs_f64() / FLIGHT.as_secs_f64();
-            self.document.camera = flight.from.on_the_way(flight.to, t);
-            if t >= 1.0 {
-                self.inspection.flight = None;
-            } else {
-                next = Some(now + PICTURE);
-            }
-        }
         if let Some(walking) = &mut self.inspection.walk
             && let Some(since) = walking.playing
         {
@@ -274,10 +241,9 @@ impl Session {
                 walking.at = (walking.at + 1).min(walking.walk.arrows());
                 walking.playing = (walking.at < walking.walk.arrows()).then_some(now);
             }
-            let beat = walking.playing.map(|since| since + ARROW);
-            next = [next, beat].into_iter().flatten().min();
+            return walking.playing.map(|since| since + ARROW);
         }
-        next
+        None
     }
 }
 

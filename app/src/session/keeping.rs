@@ -23,7 +23,8 @@ pub(super) struct Keeping {
 
 impl Session {
     pub(super) fn remember_with(&mut self, store: Store) {
-        let Settings { theme, reload, panels, speed, recent } = store.settings();
+        let Settings { theme, reload, panels, speed, recent, navigation } = store.settings();
+        self.navigation = navigation;
         (self.theme, self.reload, self.panels, self.speed, self.recent) = (theme, reload, panels, speed, recent);
         self.orphan = store.orphan();
         self.dialog = self.orphan.as_ref().map(|orphan| Dialog::Recover { name: orphan.project.name.clone() });
@@ -44,8 +45,14 @@ impl Session {
     }
 
     fn settings(&self) -> Settings {
-        let recent = self.recent.clone();
-        Settings { theme: self.theme, reload: self.reload, panels: self.panels, speed: self.speed, recent }
+        Settings {
+            theme: self.theme,
+            reload: self.reload,
+            panels: self.panels,
+            speed: self.speed,
+            recent: self.recent.clone(),
+            navigation: self.navigation,
+        }
     }
 
     /// Gives the store what has changed: settings at once, text when its time has come, and before it is run. Returns

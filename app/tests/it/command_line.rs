@@ -2,6 +2,7 @@
 
 mod budgets;
 mod files;
+mod language_server;
 mod layout;
 mod meshes;
 mod outputs;

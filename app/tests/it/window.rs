@@ -5,6 +5,7 @@ mod inspecting;
 mod keeping;
 mod palette;
 mod timeline;
+mod view;
 
 use std::path::Path;
 use std::time::{Duration, Instant};

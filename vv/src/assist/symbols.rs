@@ -42,6 +42,14 @@ impl Symbol {
         self.scope.as_ref().is_none_or(|scope| scope.start <= at && at <= scope.end)
     }
 
+    /// Whether both are declarations of the same thing. Functions and properties have no others of their name.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.name == other.name
+            && self.kind == other.kind
+            && self.scope == other.scope
+            && (self.scope.is_none() || self.place == other.place)
+    }
+
     pub(super) fn is_property(&self) -> bool {
         matches!(self.kind, SymbolKind::Property(_))
     }

@@ -143,3 +143,24 @@ fn every_word_of_the_language_is_explained() {
         assert!(words::find(word).is_some(), "`{word}` is not explained");
     }
 }
+
+/// Where the program names what the word at `¦` names, each as its line from there on.
+#[track_caller]
+fn used(text: &str, expected: &[&str]) {
+    let at = text.find('¦').expect("a place");
+    let text = text.replace('¦', "");
+    let assist = Assist::new(text.as_str(), []);
+    let uses = assist.symbol_at(at).map(|(_, symbol)| assist.uses(symbol)).unwrap_or_default();
+    let found: Vec<&str> = uses.iter().map(|r| text[r.start..].lines().next().unwrap_or_default()).collect();
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn a_name_is_found_wherever_it_means_the_same() {
+    used("int ¦a = 1;\nint f(int a) { return a; }\nint g() { return\na; }", &["a = 1;", "a; }"]);
+    used("int a = 1;\nint f(int ¦a) { return\na; }\nint g() { return a; }", &["a) { return", "a; }"]);
+    used("int ¦f();\nint f() { return f(); }", &["f();", "f() { return f(); }", "f(); }"]);
+    used("double x¦ = 1;\nvoid f(vec p) { p.x = x; }", &["x = 1;", "x; }"]);
+    used("vertex { int n; };\nmesh { int n; };\nvoid f(mesh& S) { forall v in S v$¦n =\nS$n; }", &["n; };", "n ="]);
+    used("void f() { ¦sin(1); }", &[]);
+}

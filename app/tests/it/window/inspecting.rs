@@ -29,7 +29,7 @@ fn on(obj: &str, program: &str) -> (Harness<'static, App>, tempfile::TempDir) {
 fn known(window: &mut Harness<'static, App>) {
     settle(window);
     until(window, "it can be pointed at", |s| {
-        s.frame().is_some_and(|f| f.scene.is_indexed() && f.findings.get().is_some()) && !s.is_flying()
+        s.frame().is_some_and(|f| f.scene.is_indexed() && f.findings.get().is_some()) && !s.glides()
     });
     window.step();
 }

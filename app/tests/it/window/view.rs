@@ -1,0 +1,292 @@
+//! The camera: sides, hands, keys, viewpoints as text and under names.
+
+use super::*;
+use app::camera::{Camera, Side, Up};
+use app::command::ViewAction;
+use app::navigation::{Preset, Turning};
+use eframe::egui::PointerButton;
+
+fn camera(window: &Harness<'static, App>) -> Camera {
+    window.state().session().document.camera
+}
+
+fn view(window: &mut Harness<'static, App>, action: ViewAction) {
+    window.state_mut().apply(Command::View(action));
+    settle(window);
+}
+
+fn press_with(window: &mut Harness<'static, App>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    settle(window);
+}
+
+/// Drags a button over the picture.
+fn drag(window: &mut Harness<'static, App>, button: PointerButton, modifiers: Modifiers, by: egui::Vec2) {
+    let middle = window.get_by_label("Viewport").rect().center();
+    let press = |pos, pressed| egui::Event::PointerButton { pos, button, pressed, modifiers };
+    window.hover_at(middle);
+    window.event_modifiers(press(middle, true), modifiers);
+    window.step();
+    for i in 1..=4 {
+        let pos = middle + by * (i as f32 / 4.0);
+        window.event_modifiers(egui::Event::PointerMoved(pos), modifiers);
+        window.step();
+    }
+    window.event_modifiers(press(middle + by, false), modifiers);
+    settle(window);
+}
+
+const ALT: Modifiers = Modifiers::ALT;
+
+#[test]
+fn sides_are_looked_from_by_menu_and_by_keys() {
+    let mut window = octahedron();
+    let before = camera(&window);
+    choose(&mut window, "Camera", "Top");
+    assert_eq!(camera(&window).side(Up::Y), Some(Side::Top));
+    let ctrl_alt = Modifiers::COMMAND | ALT;
+    for (modifiers, key, side) in [
+        (ALT, Key::Num1, Side::Front),
+        (ctrl_alt, Key::Num1, Side::Back),
+        (ALT, Key::Num3, Side::Right),
+        (ctrl_alt, Key::Num3, Side::Left),
+        (ALT, Key::Num7, Side::Top),
+        (ctrl_alt, Key::Num7, Side::Bottom),
+        (ALT, Key::Num0, Side::Isometric),
+    ] {
+        press_with(&mut window, modifiers, key);
+        assert_eq!(camera(&window).side(Up::Y), Some(side));
+    }
+    assert_eq!((camera(&window).pivot, camera(&window).distance), (before.pivot, before.distance));
+    assert_eq!(window.state().session().document.generation, 0, "digits with Alt walk no generations");
+    view(&mut window, ViewAction::SetUp(Up::Z));
+    press_with(&mut window, ALT, Key::Num1);
+    assert_eq!(camera(&window).side(Up::Z), Some(Side::Front));
+}
+
+#[test]
+fn parallel_lines_are_switched_on_and_off_and_picked_through() {
+    let mut window = octahedron();
+    press_with(&mut window, ALT, Key::Num1);
+    press_with(&mut window, ALT, Key::Num5);
+    assert!(camera(&window).orthographic);
+    let middle = window.get_by_label("Viewport").rect().center();
+    // A double click right of the middle makes the point of the surface there the pivot.
+    let at = middle + egui::vec2(30.0, 0.0);
+    window.hover_at(at);
+    window.step();
+    for pressed in [true, false, true, false] {
+        let button = PointerButton::Primary;
+        // All in one frame: frames of tests are too slow for a double click.
+        let event = egui::Event::PointerButton { pos: at, button, pressed, modifiers: Modifiers::NONE };
+        window.input_mut().events.push(event);
+    }
+    settle(&mut window);
+    let pivot = camera(&window).pivot;
+    assert!(pivot.z > 0.5 && (pivot.element_sum() - 1.0).abs() < 1e-6, "on the face in front: {pivot}");
+    press_with(&mut window, ALT, Key::Num5);
+    assert!(!camera(&window).orthographic);
+}
+
+#[test]
+fn keys_go_around_shift_and_zoom_and_leave_the_arrows_to_the_generations() {
+    let mut window = octahedron();
+    press_with(&mut window, ALT, Key::Num1);
+    let front = camera(&window);
+    for _ in 0..6 {
+        press_with(&mut window, Modifiers::SHIFT, Key::ArrowRight);
+    }
+    assert_eq!(camera(&window).side(Up::Y), Some(Side::Right), "six steps are a quarter");
+    for _ in 0..6 {
+        press_with(&mut window, ALT, Key::Num4);
+    }
+    press_with(&mut window, Modifiers::COMMAND, Key::ArrowUp);
+    let shifted = camera(&window);
+    assert!(shifted.pivot.y < front.pivot.y && shifted.side(Up::Y) == Some(Side::Front));
+    press(&mut window, Key::Plus);
+    assert!(camera(&window).distance < shifted.distance);
+    press(&mut window, Key::Minus);
+    assert!((camera(&window).distance / shifted.distance - 1.0).abs() < 1e-9);
+    assert_eq!(window.state().session().document.generation, 0);
+    press(&mut window, Key::ArrowRight);
+    assert_eq!(window.state().session().document.generation, 1);
+}
+
+#[test]
+fn a_viewpoint_goes_by_the_clipboard_to_another_window() {
+    let mut window = octahedron();
+    press_with(&mut window, Modifiers::SHIFT, Key::ArrowUp);
+    press_with(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
+    assert_eq!(window.state().session().notice().unwrap().1, "viewpoint copied");
+    window.state_mut().apply(Command::View(ViewAction::Copy));
+    window.step();
+    let copied = window.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    let text = copied.expect("nothing was copied");
+    assert!(text.starts_with("vv view: eye ") && text.contains(" perspective 28.6479"), "{text}");
+
+    let mut other = octahedron();
+    assert!(camera(&other).eye().distance(camera(&window).eye()) > 0.1);
+    press_with(&mut other, Modifiers::COMMAND | Modifiers::SHIFT, Key::V);
+    assert!(other.state().session().awaits_viewpoint());
+    other.state_mut().apply(Command::View(ViewAction::Paste));
+    other.step();
+    let asks = |o: &egui::ViewportOutput| o.commands.contains(&egui::ViewportCommand::RequestPaste);
+    assert!(other.output().viewport_output.values().any(asks), "the clipboard is asked");
+    other.event(egui::Event::Paste(text));
+    settle(&mut other);
+    assert!(camera(&other).eye().distance(camera(&window).eye()) < 1e-4);
+}
+
+#[test]
+fn what_is_no_viewpoint_is_told_where() {
+    let mut window = octahedron();
+    let before = camera(&window);
+    window.state_mut().apply(Command::View(ViewAction::Paste));
+    window.step();
+    window.event(egui::Event::Paste("eye 1 2 x".to_owned()));
+    settle(&mut window);
+    let notice = window.state().session().notice().unwrap().1.to_owned();
+    assert_eq!(notice, "what was copied is no viewpoint: column 9: `eye` is followed by three numbers");
+    assert_eq!(camera(&window), before);
+}
+
+#[test]
+fn a_viewpoint_that_was_not_asked_for_is_text_in_the_editor() {
+    let mut window = octahedron();
+    let before = camera(&window);
+    window.get_by_label("Program text").focus();
+    window.step();
+    window.event(egui::Event::Paste("vv view: front".to_owned()));
+    settle(&mut window);
+    assert!(window.state().session().document.program.text.contains("vv view: front"));
+    assert_eq!(camera(&window), before);
+}
+
+#[test]
+fn hands_are_those_of_the_preset() {
+    let mut window = octahedron();
+    let by = egui::vec2(50.0, 20.0);
+    for (preset, button, modifiers, what) in [
+        (Preset::Vv, PointerButton::Primary, Modifiers::NONE, "turn"),
+        (Preset::Vv, PointerButton::Secondary, Modifiers::NONE, "shift"),
+        (Preset::Blender, PointerButton::Primary, Modifiers::NONE, ""),
+        (Preset::Blender, PointerButton::Middle, Modifiers::NONE, "turn"),
+        (Preset::Blender, PointerButton::Middle, Modifiers::SHIFT, "shift"),
+        (Preset::Blender, PointerButton::Middle, Modifiers::COMMAND | Modifiers::CTRL, "zoom"),
+        (Preset::Maya, PointerButton::Primary, ALT, "turn"),
+        (Preset::Maya, PointerButton::Middle, ALT, "shift"),
+        (Preset::Maya, PointerButton::Secondary, ALT, "zoom"),
+    ] {
+        view(&mut window, ViewAction::SetPreset(preset));
+        press(&mut window, Key::F);
+        let before = camera(&window);
+        drag(&mut window, button, modifiers, by);
+        let after = camera(&window);
+        let turned = after.world_from_view.angle_between(before.world_from_view) > 0.01;
+        let zoomed = (after.distance / before.distance - 1.0).abs() > 0.01;
+        let shifted = after.pivot.distance(before.pivot) > 0.01 && !zoomed;
+        assert_eq!(
+            (turned, shifted, zoomed),
+            (what == "turn", what == "shift", what == "zoom"),
+            "{preset:?} {button:?}"
+        );
+    }
+}
+
+#[test]
+fn a_drag_goes_on_outside_the_window() {
+    let mut window = octahedron();
+    let before = camera(&window);
+    drag(&mut window, PointerButton::Primary, Modifiers::NONE, egui::vec2(-900.0, 0.0));
+    let angle = camera(&window).world_from_view.angle_between(before.world_from_view);
+    assert!(angle > 1.2, "{angle}");
+}
+
+#[test]
+fn the_turntable_stays_upright() {
+    let mut window = octahedron();
+    drag(&mut window, PointerButton::Primary, Modifiers::NONE, egui::vec2(120.0, 100.0));
+    let upright = |window: &_| (camera(window).world_from_view * glam::DVec3::X).y.abs() < 1e-9;
+    assert!(!upright(&window));
+    choose(&mut window, "Camera", "Navigation");
+    click(&mut window, "Turntable");
+    assert_eq!(window.state().session().navigation.turning, Turning::Turntable);
+    assert!(upright(&window));
+    drag(&mut window, PointerButton::Primary, Modifiers::NONE, egui::vec2(120.0, 100.0));
+    assert!(upright(&window));
+}
+
+#[test]
+fn two_fingers_turn_and_with_shift_they_shift() {
+    let mut window = octahedron();
+    let middle = window.get_by_label("Viewport").rect().center();
+    let scroll = |window: &mut Harness<'static, App>, modifiers| {
+        let before = camera(window);
+        window.hover_at(middle);
+        let event = egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            source: egui::MouseWheelSource::Trackpad,
+            delta: egui::vec2(30.0, 12.0),
+            phase: egui::TouchPhase::Move,
+            modifiers,
+        };
+        window.event_modifiers(event, modifiers);
+        window.run_steps(3);
+        (before, camera(window))
+    };
+    let (before, after) = scroll(&mut window, Modifiers::NONE);
+    assert!(after.world_from_view.angle_between(before.world_from_view) > 0.05);
+    assert_eq!(after.distance, before.distance);
+    let (before, after) = scroll(&mut window, Modifiers::SHIFT);
+    assert!(after.pivot.distance(before.pivot) > 0.01 && after.world_from_view == before.world_from_view);
+}
+
+#[test]
+fn viewpoints_are_kept_under_names_and_saved_with_the_project() {
+    let mut window = octahedron();
+    press_with(&mut window, ALT, Key::Num1);
+    let front = camera(&window);
+    view(&mut window, ViewAction::Save("front page".to_owned()));
+    press_with(&mut window, ALT, Key::Num7);
+    choose(&mut window, "Camera", "Saved viewpoints");
+    click(&mut window, "front page");
+    assert_eq!(camera(&window), front);
+    let document = window.state().session().document.clone();
+    let bytes = app::project::Project::of(&document).to_json(None).unwrap();
+    let back = app::project::Project::from_json(&bytes, None).unwrap().into_document();
+    assert_eq!(back.views, document.views);
+    view(&mut window, ViewAction::Forget("front page".to_owned()));
+    assert!(window.state().session().document.views.is_empty());
+}
+
+#[test]
+fn the_sheet_of_keys_shows_the_hands_of_the_preset() {
+    let mut window = octahedron();
+    view(&mut window, ViewAction::SetPreset(Preset::Blender));
+    press(&mut window, Key::H);
+    window.get_by_label("Find a key").type_text("middle drag");
+    window.run_steps(3);
+    window.get_by_label("Ctrl + middle drag");
+    assert!(window.query_by_label("left drag").is_none());
+}
+
+#[test]
+fn a_viewpoint_is_glided_to_where_that_is_wanted() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::View(ViewAction::Gliding));
+    let from = camera(&window);
+    window.state_mut().apply(Command::View(ViewAction::From(Side::Back)));
+    window.step();
+    let (aim, now) = (window.state().session().aim(), camera(&window));
+    assert_eq!(aim.side(Up::Y), Some(Side::Back));
+    assert!(window.state().session().glides() && now != aim);
+    assert!(
+        now.world_from_view.angle_between(from.world_from_view)
+            < aim.world_from_view.angle_between(from.world_from_view)
+    );
+    until(&mut window, "it has arrived", |session| !session.glides());
+    assert_eq!(camera(&window), aim);
+}
