@@ -270,8 +270,8 @@ pub(super) extern "C" fn grow_slots(context: *mut Context, more: u64) -> u32 {
 /// The rings of a mesh, one after the other in order, each with room for twice as many vertices: a program that splices
 /// into most of them then moves none.
 fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>, Column<Option<Vertex>>) {
-    let mut heads: Vec<Head> = roomy(vertices);
-    let mut arena: Vec<Option<Vertex>> = roomy(slots);
+    let mut heads: Vec<Head> = spare(vertices);
+    let mut arena: Vec<Option<Vertex>> = spare(slots);
     for head in mesh.heads() {
         let ring = mesh.slots().get(head.range()).unwrap_or(&[]);
         let capacity = 2 * head.len;
@@ -286,45 +286,18 @@ fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>
 fn own_column<T: Copy + Send>(column: &mut Column<T>, capacity: usize) {
     let capacity = capacity.max(column.len());
     if column.is_shared() {
-        let mut copy = roomy(capacity);
+        let mut copy = spare(capacity);
         copy.extend_from_slice(column);
         *column = Column::from(copy);
     } else if column.capacity() < capacity {
         let values = column.edit();
         values.reserve_exact(capacity - values.len());
-        advise_huge_pages(values.as_ptr().cast(), capacity * size_of::<T>());
     }
 }
 
 fn own_values(values: &mut Values, capacity: usize) {
     on_column!(values, c => own_column(c, capacity));
 }
-
-/// An empty array with room for so many elements.
-fn roomy<T: Send + 'static>(capacity: usize) -> Vec<T> {
-    let array: Vec<T> = spare(capacity);
-    advise_huge_pages(array.as_ptr().cast(), array.capacity() * size_of::<T>());
-    array
-}
-
-/// Asks for large pages where an array is large: first touch of small ones takes as long as all the rest of a step.
-#[cfg(target_os = "linux")]
-fn advise_huge_pages(start: *const u8, bytes: usize) {
-    const PAGE: usize = 4096;
-    if bytes < 4 << 20 {
-        return;
-    }
-    let first = start.addr().next_multiple_of(PAGE);
-    let end = (start.addr() + bytes) & !(PAGE - 1);
-    if end > first {
-        let address = start.with_addr(first).cast_mut().cast();
-        // SAFETY: the range lies within an array that is ours, and the advice changes no contents. Refusal is no harm.
-        unsafe { libc::madvise(address, end - first, libc::MADV_HUGEPAGE) };
-    }
-}
-
-#[cfg(not(target_os = "linux"))]
-fn advise_huge_pages(_start: *const u8, _bytes: usize) {}
 
 fn shrink<T: Clone + Send>(column: &mut Column<T>, room: usize) {
     if column.capacity() - column.capacity() / 8 > room {
