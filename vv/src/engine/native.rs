@@ -68,7 +68,7 @@ mutations! {
     AddStepByTwo AddsNoMember AndIsOr AnyIsLast AppendsNothing AssignsNoRing AssignsNoSet BeginsAtTheStart BoolIsMinusOne BreakIsContinue CallsWithZeros
     ComparesBoolsInverted ComparesDoublesInverted ComparesIntsInverted ComparesVecsByX ComparesVerticesInverted
     ConditionalIsSwapped CreatesWithoutDefaults CrossIsNegated DifferenceIsSwapped DividesIntsByOne DotForgetsZ
-    DoubleToIntRounds EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IsInRingInverted
+    DoubleToIntRounds EditsMoveNothing EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IgnoresRoom IsInRingInverted
     IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
     NotDoesNothing OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
     ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY

@@ -474,6 +474,9 @@ const NEW: [&[&str]; 2] = [
         "forall q in b replace q with b in b;",
         "vertex x; make {b} nb_of x; replace b with x in x;",
         "vertex x, y = a > c ? b : x; make {c, b} nb_of y; replace b with x in y;",
+        "vertex x; make {a, b, c} nb_of x; splice x after a in b; splice x after c in b;",
+        "vertex x = nextto (nextto c in b) in a; erase a from x;",
+        "vertex x = nextto c in a; erase b from x; splice c after b in a;",
     ],
     &[
         "vertex x; make {a, b} nb_of x; replace a with x in b; replace b with x in a; print any in x, nextto b in x;",
@@ -495,6 +498,22 @@ const NEW: [&[&str]; 2] = [
         "a$mate = b; vec v = a$pos + a$mate$pos * 2 - (nextto a in b)$pos; b$pos = v.x * v + a$pos; print v, b$pos;",
         "vertex x; make {a, b, c, nextto x in a} nb_of x; print valence x, gaps x;",
         "vertex x, y; make {a, b, c, y, nextto x in a, any in x} nb_of x; print valence x, gaps x;",
+        "vertex x; make {a, b, c} nb_of x; splice x after a in b; splice x after b in c; splice x after c in a;",
+        "vertex x = nextto c in a, y = prevto c in a; splice y after c in x; erase c from y; erase c from a; print any in a;",
+        "vertex x = prevto b in a; erase b from x; erase b from a; erase a from b;",
+        "vertex x = nextto c in a; erase a from x; erase b from a; erase c from a;",
+        "vertex x = nextto c in a; erase a from x; vertex y; splice y before any in a in a; splice y after c in x; erase c from a;",
+        "vertex x = nextto c in a, y = a < c ? a : c; erase a from x; erase b from y; erase c from a;",
+        "vertex x = nextto c in a; erase a from x; make {c, b} nb_of a; vertex y; splice y after c in a; print nextto c in a;",
+        "vertex x = nextto c in a; if (a < c) { erase a from x; erase b from a; } else erase x from a; print prevto c in a;",
+        "vertex x = nextto c in a; print is a in x; vertex y; replace c with y in a; splice y after c in a; erase c from a;",
+        "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; \
+         for (int i = 0; i < 20; i++) { vertex z; splice z after n in x; print nextto z in x, prevto n in x; n = z; } \
+         forall q in x { erase q from x; print valence x; forall r in x print r; } forall q in y print q;",
+        "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; \
+         for (int i = 0; i < 20; i++) { vertex z; splice z before n in x; n = i % 2 ? z : n; } forall q in x print q; \
+         while (valence x) { vertex q = any in x; q = nextto q in x; q = nextto q in x; erase q from x; print q; } \
+         forall q in y print q;",
     ],
 ];
 

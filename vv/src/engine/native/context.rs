@@ -30,6 +30,8 @@ pub(super) struct Context {
     pub(super) slot_capacity: u64,
     /// Whether values lie beside the slots: then only the runtime edits rings.
     pub(super) has_edge_values: u64,
+    /// One less than a vertex is below this where compiled code may edit rings that end in it: all are but null, or none.
+    pub(super) edit_limit: u64,
     pub(super) old_heads: *const Head,
     pub(super) old_slots: *const u32,
     pub(super) old_positions: *const f64,
@@ -77,6 +79,15 @@ pub(super) struct RawList {
 
 /// Slots that can be read, though they mean nothing, behind the last one in use.
 pub(super) const PADDING: usize = 24;
+
+/// Room for a ring of `len` slots that may grow: as many as are edited at once, see `edit_widths` of the translator.
+pub(super) fn room_for(len: u32) -> u32 {
+    match len {
+        0 => 0,
+        1..=6 => 6,
+        _ => len.div_ceil(4).saturating_mul(4),
+    }
+}
 
 /// Operands and results of a pure function at one of its calls.
 pub(super) struct Memo {
@@ -177,6 +188,7 @@ offsets! {
     SLOT_LEN slot_len
     SLOT_CAPACITY slot_capacity
     HAS_EDGE_VALUES has_edge_values
+    EDIT_LIMIT edit_limit
     OLD_HEADS old_heads
     OLD_SLOTS old_slots
     OLD_POSITIONS old_positions

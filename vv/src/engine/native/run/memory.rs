@@ -1,6 +1,6 @@
 //! The arrays of a run: made unshared, handed to compiled code and taken back, grown.
 
-use super::super::context::{Context, PADDING, RawList, RawSet};
+use super::super::context::{Context, PADDING, RawList, RawSet, room_for};
 use super::{List, Run, guard, status};
 use crate::mesh::{Column, Head, Mesh, Values, Vertex, VertexSet, spare};
 
@@ -35,7 +35,7 @@ impl Run<'_> {
         if self.fixed.creates && self.allows(4 * n * each + 16 * slots) {
             (vertex_room, slot_room) = (4 * n + 64, 4 * slots + 512);
         }
-        let doubled = 2 * self.mesh.heads().iter().map(|head| head.len as usize).sum::<usize>();
+        let doubled = self.mesh.heads().iter().map(|head| room_for(2 * head.len) as usize).sum::<usize>();
         let grows = self.fixed.grows && !has_edge_values && u32::try_from(doubled).is_ok();
         if grows && self.allows(24 * n + 4 * slot_room.max(doubled)) {
             slot_room = slot_room.max(doubled);
@@ -55,7 +55,10 @@ impl Run<'_> {
             own_values(&mut property.values, 0);
         }
         // SAFETY: the context is a header at least.
-        unsafe { (*self.context).has_edge_values = u64::from(has_edge_values) };
+        unsafe {
+            (*self.context).has_edge_values = u64::from(has_edge_values);
+            (*self.context).edit_limit = if has_edge_values { 0 } else { u64::MAX };
+        }
         true
     }
 
@@ -267,17 +270,17 @@ pub(super) extern "C" fn grow_slots(context: *mut Context, more: u64) -> u32 {
     guard(context, status::REPEAT, |run| run.grow_slots(more as usize).map(|()| status::DONE))
 }
 
-/// The rings of a mesh, one after the other in order, each with room for twice as many vertices: a program that splices
-/// into most of them then moves none.
+/// The rings of a mesh, one after the other in order, each with room for at least twice as many vertices: a program that
+/// splices into most of them then moves none.
 fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>, Column<Option<Vertex>>) {
     let mut heads: Vec<Head> = spare(vertices);
     let mut arena: Vec<Option<Vertex>> = spare(slots);
     for head in mesh.heads() {
         let ring = mesh.slots().get(head.range()).unwrap_or(&[]);
-        let capacity = 2 * head.len;
+        let capacity = room_for(2 * head.len);
         heads.push(Head { offset: arena.len() as u32, len: head.len, capacity });
         arena.extend_from_slice(ring);
-        arena.extend(ring.iter().map(|_| None));
+        arena.resize(arena.len() + capacity as usize - ring.len(), None);
     }
     (heads.into(), arena.into())
 }

@@ -7,7 +7,7 @@ use super::known::{Bounds, Fact, Key};
 use super::ring::{Source, little_endian, unaligned};
 use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
-use crate::engine::native::context;
+use crate::engine::native::context::{self, room_for};
 use crate::ir::{Expr, Item, LocalId, Ring, Side};
 
 /// Rings made of more items than this are left to the runtime.
@@ -72,8 +72,10 @@ impl<'p> Translator<'_, 'p> {
         self.call_or_fail(Symbol::Make, &[v, address, n]);
         self.b.ins().jump(done, &[]);
         self.continue_in(done);
-        self.known.forget_rings(false);
+        self.known.forget_ring(v);
         self.known.made(v);
+        let vertices: Vec<Value> = list.iter().copied().flatten().collect();
+        self.known.made_of(&vertices, v);
         for &x in &list {
             self.note_put(x, v);
         }
@@ -85,7 +87,7 @@ impl<'p> Translator<'_, 'p> {
         let v = self.vertex_not_null(of)?;
         let from = self.list_bounds(ring)?;
         let operands = [v, from.start, from.len];
-        self.edit(Symbol::Make, &operands, |t, Ways { slow, done }| {
+        self.edit(Symbol::Make, v, &operands, |t, Ways { slow, done }| {
             let edge_values = t.load_context(types::I64, context::HAS_EDGE_VALUES);
             t.leave_if(edge_values, slow);
             for width in [4, 8] {
@@ -134,7 +136,14 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().brif(fits, store, &[kept.into()], fresh, &[]);
         self.continue_in(fresh);
         let least = self.int32(self.unit.facts.fresh_capacity);
-        let room = self.b.ins().umax(from.len, least);
+        let mut room = self.b.ins().umax(from.len, least);
+        if self.unit.facts.grows {
+            // As `room_for`.
+            let more = self.b.ins().iadd_imm_s(room, 3);
+            let rounded = self.b.ins().band_imm_s(more, !3);
+            let short = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThanOrEqual, room, 6);
+            room = self.b.ins().select(short, room, rounded);
+        }
         let taken = self.take_slots(head, room, slow);
         let slots = unaligned(self.regions.slots);
         let zero = self.int32(0);
@@ -207,7 +216,11 @@ impl<'p> Translator<'_, 'p> {
 
     /// Takes slots for a ring of `k`, with gaps in those that it leaves; to `slow` if there are edge values.
     fn take_slots_for(&mut self, k: usize, head: Value, slow: Block) -> Value {
-        let room = (k as i64).max(i64::from(self.unit.facts.fresh_capacity));
+        let mut room = (k as u32).max(self.unit.facts.fresh_capacity);
+        if self.unit.facts.grows {
+            room = room_for(room);
+        }
+        let room = i64::from(room);
         let capacity = self.b.ins().iconst(types::I32, room);
         let start = self.take_slots(head, capacity, slow);
         let [one, two] = [types::I32, types::I64].map(|ty| self.b.ins().iconst(ty, 0));
@@ -298,7 +311,7 @@ impl<'p> Translator<'_, 'p> {
             }
         };
         let operands = [self.or_null(a), self.or_null(x), v];
-        self.edit(Symbol::Replace, &operands, |t, ways| {
+        self.edit(Symbol::Replace, v, &operands, |t, ways| {
             if let (Some(a), Some(x)) = (a, x) {
                 t.replace_in_place(a, x, v, ways);
             } else {
@@ -320,9 +333,9 @@ impl<'p> Translator<'_, 'p> {
         {
             self.replace_where_it_stood(was.at, a, x, Bounds { start, len, flags }, done);
         }
-        self.by_width(len, 0, slow, |t, width| {
+        self.by_width(self.widths(), len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
-            let at = t.place_to_edit(&lanes, a, bytes, done);
+            let at = t.place_to_edit(&lanes, a, v, bytes, done);
             t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
             if !t.mutated(Mutation::ReplacesNothing) {
                 // Stores as wide as the loads that will follow, for narrow ones would hold those up.
@@ -359,8 +372,11 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(search);
     }
 
-    /// Where `a` stands in a ring of so many bytes, which fills the first of the lanes; on to `done` if it does not.
-    fn place_to_edit(&mut self, lanes: &[Value], a: Value, bytes: Value, done: Block) -> Value {
+    /// Where `a` stands in the ring of `v`, of so many bytes, which fills the first of the lanes; on to `done` if it does not.
+    fn place_to_edit(&mut self, lanes: &[Value], a: Value, v: Value, bytes: Value, done: Block) -> Value {
+        if let Some(at) = self.known.place(a, v) {
+            return at;
+        }
         let at = self.first_match(lanes, a);
         let absent = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, at, bytes);
         self.leave_if(absent, done);
@@ -369,19 +385,18 @@ impl<'p> Translator<'_, 'p> {
 
     /// Goes to `slow` where `x` is null, stands in the ring of `v` already, or is `v` itself.
     fn leave_unless_it_may_enter(&mut self, lanes: &[Value], x: Value, bytes: Value, v: Value, slow: Block) {
-        let mut bad = Vec::new();
         if !self.known.is_absent(x, v) {
             let at = self.first_match(lanes, x);
-            bad.push(self.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes));
+            let twice = self.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes);
+            self.leave_if(twice, slow);
         }
         if !self.known.differ(x, v) {
-            bad.push(self.b.ins().icmp(IntCC::Equal, x, v));
+            let itself = self.b.ins().icmp(IntCC::Equal, x, v);
+            self.leave_if(itself, slow);
         }
         if !self.known.holds(Key::NotNull(x)) {
-            bad.push(self.b.ins().icmp_imm_s(IntCC::Equal, x, 0));
-        }
-        if let Some(bad) = bad.into_iter().reduce(|a, b| self.b.ins().bor(a, b)) {
-            self.leave_if(bad, slow);
+            let null = self.b.ins().icmp_imm_s(IntCC::Equal, x, 0);
+            self.leave_if(null, slow);
         }
     }
 
@@ -397,7 +412,7 @@ impl<'p> Translator<'_, 'p> {
             }
         };
         let operands = [self.or_null(x), self.or_null(a), v, before];
-        self.edit(Symbol::Splice, &operands, |t, ways| {
+        self.edit(Symbol::Splice, v, &operands, |t, ways| {
             if let (Some(x), Some(a)) = (x, a) {
                 t.splice_in_place(x, side, a, v, ways);
             } else {
@@ -412,9 +427,9 @@ impl<'p> Translator<'_, 'p> {
     fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
         let bytes = self.bytes_of(len);
-        self.by_width(len, 1, slow, |t, width| {
-            let lanes = t.lanes(start, width, flags);
-            let at = t.place_to_edit(&lanes, a, bytes, done);
+        self.by_width(self.edit_widths(), len, 1, slow, |t, width| {
+            let lanes = t.lanes(start, (width + 3) & !3, flags);
+            let at = t.place_to_edit(&lanes, a, v, bytes, done);
             t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
             let head = t.head(v, false);
             let heads = t.regions.heads;
@@ -426,23 +441,19 @@ impl<'p> Translator<'_, 'p> {
                 Side::Before => t.b.ins().select(at, at, bytes),
             };
             // Lanes behind `at` take what stands before them, `at` takes x.
-            let mut shifted = vec![t.shift_lanes_up(lanes[0])];
-            let before = t.b.ins().iadd_imm_s(start, 12);
-            shifted.extend(t.lanes(before, width - 4, flags));
-            let end = t.b.ins().iadd_imm_s(bytes, 4);
-            let [place, end] = [at, end].map(|x| t.lanes_of_offset(x));
+            let fours: Vec<(u32, Value, Value)> = fours(width)
+                .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&lanes, i64::from(first) - 1)))
+                .collect();
+            let place = t.lanes_of_offset(at);
             let new = t.b.ins().splat(types::I32X4, x);
             let start = t.with_room(head, capacity, len, start, width, slow);
-            for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
-                let offsets = t.lane_offsets(4 * k as u32);
+            for (first, lane, shifted) in fours {
+                let offsets = t.lane_offsets(first);
                 let behind = t.b.ins().icmp(IntCC::SignedGreaterThan, offsets, place);
                 let result = t.b.ins().bitselect(behind, shifted, lane);
                 let here = t.b.ins().icmp(IntCC::Equal, place, offsets);
                 let result = t.b.ins().bitselect(here, new, result);
-                // Lanes behind the ring get back what they hold, for it is another's; behind one that moved is nobody's.
-                let within = t.b.ins().icmp(IntCC::SignedGreaterThan, end, offsets);
-                let result = t.b.ins().bitselect(within, result, lane);
-                t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
+                t.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
             }
             let len = t.b.ins().iadd_imm_s(len, 1);
             t.b.ins().store(heads, len, head, context::HEAD_LEN);
@@ -450,23 +461,26 @@ impl<'p> Translator<'_, 'p> {
         });
     }
 
-    /// Where a ring of at most `width` slots goes that becomes longer by one: it stays at `start` if there is room, else
-    /// it gets a fresh run of slots.
+    /// Where a ring goes that becomes longer by one, to at most `width` slots, of which so many are then written: it stays
+    /// at `start` if there is room for them, else, if it is full, it gets a fresh run of slots.
     fn with_room(&mut self, head: Value, capacity: Value, len: Value, start: Value, width: i64, slow: Block) -> Value {
         let fresh = self.b.create_block();
         self.b.set_cold_block(fresh);
         let (store, to) = self.block_with(&[types::I64]);
-        let full = self.b.ins().icmp(IntCC::Equal, capacity, len);
-        self.b.ins().brif(full, fresh, &[], store, &[start.into()]);
+        let needed = if self.mutated(Mutation::IgnoresRoom) { 0 } else { width };
+        let fits = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThanOrEqual, capacity, needed);
+        self.b.ins().brif(fits, store, &[start.into()], fresh, &[]);
         self.continue_in(fresh);
+        let tight = self.b.ins().icmp(IntCC::NotEqual, capacity, len);
+        self.leave_if(tight, slow);
         let twice = self.b.ins().ishl_imm_u(capacity, 1);
         let least = self.int32(self.unit.facts.fresh_capacity);
         let room = self.b.ins().umax(twice, least);
         let start = self.take_slots(head, room, slow);
         // The ring itself fills the first lanes.
         let flags = unaligned(self.regions.slots);
-        let zero = self.int32(0);
-        let gaps = self.b.ins().splat(types::I32X4, zero);
+        // Loaded, for Cranelift would keep a constant on the stack, for all the rounds that have no need of it.
+        let gaps = self.b.ins().load(types::I32X4, unaligned(self.regions.context), self.context, context::NOTHING);
         for k in width / 4..width / 2 {
             self.b.ins().store(flags, gaps, start, 16 * k as i32);
         }
@@ -495,11 +509,10 @@ impl<'p> Translator<'_, 'p> {
     /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings.
     fn leave_if_gap_or_edge_values(&mut self, start: Value, bytes: Value, slow: Block) {
         let end = self.b.ins().iadd(start, bytes);
-        let last = self.b.ins().load(types::I32, self.regions.slots, end, -4);
-        let gap = self.b.ins().icmp_imm_s(IntCC::Equal, last, 0);
-        let edge_values = self.load_context(types::I64, context::HAS_EDGE_VALUES);
-        let edge_values = self.b.ins().ireduce(types::I8, edge_values);
-        let bad = self.b.ins().bor(gap, edge_values);
+        let last = self.b.ins().uload32(self.regions.slots, end, -4);
+        let last = self.b.ins().iadd_imm_s(last, -1);
+        let limit = self.load_context(types::I64, context::EDIT_LIMIT);
+        let bad = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, last, limit);
         self.leave_if(bad, slow);
     }
 
@@ -523,15 +536,6 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().load(types::I32X4, flags, context, context::OFFSETS + 4 * first as i32)
     }
 
-    /// Lane i becomes lane i − 1; the first is of no use.
-    fn shift_lanes_up(&mut self, lanes: Value) -> Value {
-        let bytes = self.b.ins().bitcast(types::I8X16, little_endian(), lanes);
-        let mask: Vec<u8> = [0, 1, 2, 3].into_iter().chain(0..12).collect();
-        let mask = self.b.func.dfg.immediates.push(ConstantData::from(mask));
-        let shifted = self.b.ins().shuffle(bytes, bytes, mask);
-        self.b.ins().bitcast(types::I32X4, little_endian(), shifted)
-    }
-
     pub(super) fn erase(&mut self, item: &'p Item, from: &'p Ring) -> Translated<()> {
         let x = self.sought(item)?;
         let v = match self.source(from)? {
@@ -542,7 +546,7 @@ impl<'p> Translator<'_, 'p> {
             }
         };
         let operands = [self.or_null(x), v];
-        self.edit(Symbol::Erase, &operands, |t, ways| match x {
+        self.edit(Symbol::Erase, v, &operands, |t, ways| match x {
             Some(x) => t.erase_in_place(x, v, ways),
             None => {
                 t.b.ins().jump(ways.slow, &[]);
@@ -555,32 +559,61 @@ impl<'p> Translator<'_, 'p> {
     fn erase_in_place(&mut self, x: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
         let bytes = self.bytes_of(len);
-        self.by_width(len, 0, slow, |t, width| {
-            let lanes = t.lanes(start, width, flags);
-            let at = t.place_to_edit(&lanes, x, bytes, done);
+        let has_room = self.unit.facts.grows;
+        let widths = if has_room { self.edit_widths() } else { self.widths() };
+        self.by_width(widths, len, 0, slow, |t, width| {
+            let lanes = t.lanes(start, (width + 3) & !3, flags);
+            let at = t.place_to_edit(&lanes, x, v, bytes, done);
             t.leave_if_gap_or_edge_values(start, bytes, slow);
-            // Lanes from `at` on take what stands behind them; those behind the ring get back what they hold.
-            let behind = t.b.ins().iadd_imm_s(start, 4);
-            let shifted = t.lanes(behind, width, flags);
+            let head = t.head(v, false);
+            let heads = t.regions.heads;
+            if has_room {
+                let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+                let tight = t.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, width);
+                t.leave_if(tight, slow);
+            }
+            // Lanes from `at` on take what stands behind them.
+            let fours: Vec<(u32, Value, Value)> = fours(width)
+                .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&lanes, i64::from(first) + 1)))
+                .collect();
             let before = t.b.ins().iadd_imm_s(at, -4);
             let last = t.b.ins().iadd_imm_s(bytes, -4);
             let [before, last] = [before, last].map(|x| t.lanes_of_offset(x));
-            for (k, (shifted, lane)) in shifted.into_iter().zip(lanes).enumerate() {
-                let offsets = t.lane_offsets(4 * k as u32);
+            for (first, lane, shifted) in fours {
+                let offsets = t.lane_offsets(first);
                 let from = t.b.ins().icmp(IntCC::SignedGreaterThan, offsets, before);
-                let result = t.b.ins().bitselect(from, shifted, lane);
-                let within = t.b.ins().icmp(IntCC::SignedGreaterThan, last, offsets);
-                let result = t.b.ins().bitselect(within, result, lane);
-                t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
+                let mut result = t.b.ins().bitselect(from, shifted, lane);
+                if !has_room {
+                    // Those behind the ring, which are another's, get back what they hold.
+                    let within = t.b.ins().icmp(IntCC::SignedGreaterThan, last, offsets);
+                    result = t.b.ins().bitselect(within, result, lane);
+                }
+                t.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
             }
             let len = t.b.ins().iadd_imm_s(len, -1);
-            let head = t.head(v, false);
-            let heads = t.regions.heads;
             if !t.mutated(Mutation::ErasesNothing) {
                 t.b.ins().store(heads, len, head, context::HEAD_LEN);
             }
             t.b.ins().jump(done, &[]);
         });
+    }
+
+    /// Four slots, from one on; any slots of the four at the end for those before the first and behind the last. They are
+    /// put together and not loaded: a load would wait for the stores of an edit just before.
+    fn four(&mut self, lanes: &[Value], first: i64) -> Value {
+        let four = first.max(0) as usize / 4;
+        let (low, high) = match (first, lanes.get(four + 1)) {
+            (..0, _) | (_, None) => (lanes[four], lanes[four]),
+            (_, Some(&high)) => (lanes[four], high),
+        };
+        let by = 4 * first.rem_euclid(4) as u8;
+        if by == 0 {
+            return low;
+        }
+        let [low, high] = [low, high].map(|x| self.b.ins().bitcast(types::I8X16, little_endian(), x));
+        let mask = self.b.func.dfg.immediates.push(ConstantData::from((by..by + 16).collect::<Vec<u8>>()));
+        let both = self.b.ins().shuffle(low, high, mask);
+        self.b.ins().bitcast(types::I32X4, little_endian(), both)
     }
 
     fn note_put(&mut self, x: Option<Value>, v: Value) {
@@ -589,8 +622,8 @@ impl<'p> Translator<'_, 'p> {
         }
     }
 
-    /// Edits a ring in line where `in_line` finds it can, else in the runtime.
-    fn edit(&mut self, symbol: Symbol, operands: &[Value], in_line: impl FnOnce(&mut Self, Ways)) {
+    /// Edits the ring of `v` in line where `in_line` finds it can, else in the runtime.
+    fn edit(&mut self, symbol: Symbol, v: Value, operands: &[Value], in_line: impl FnOnce(&mut Self, Ways)) {
         let ways = Ways { slow: self.b.create_block(), done: self.b.create_block() };
         self.b.set_cold_block(ways.slow);
         in_line(self, ways);
@@ -598,6 +631,15 @@ impl<'p> Translator<'_, 'p> {
         self.call_or_fail(symbol, operands);
         self.b.ins().jump(ways.done, &[]);
         self.continue_in(ways.done);
-        self.known.forget_rings(false);
+        if self.mutated(Mutation::EditsMoveNothing) {
+            self.known.forget_addresses();
+        } else {
+            self.known.forget_ring(v);
+        }
     }
+}
+
+/// The first slots of the fours that `width` slots are edited by; where two overlap, both come to the same.
+fn fours(width: i64) -> impl Iterator<Item = u32> {
+    (0..width as u32).step_by(4).map(move |first| first.min((width as u32).saturating_sub(4)))
 }

@@ -160,6 +160,9 @@ impl<'p> Translator<'_, 'p> {
         let found = self.find(x, source)?;
         let y = self.neighbour(found, forward);
         self.learn_that_it_stands_in(y, source);
+        if let (Some(x), Source::Of { v, old: false }) = (x, source) {
+            self.known.learn(Key::Beside(y), Fact::Beside { x, v, at: found.at });
+        }
         Ok(Val::One(y))
     }
 

@@ -50,6 +50,15 @@ pub(super) enum Key {
         v: Value,
         old: bool,
     },
+    /// Where in the arena the ring of a vertex lies, wherever that is.
+    Lies(Value),
+    /// `x` stands in the ring of `v`.
+    Stands {
+        x: Value,
+        v: Value,
+    },
+    /// What stands beside something in a ring, if it is not null.
+    Beside(Value),
     /// Where a face, which begins at `start`, has this side.
     Side {
         p: Value,
@@ -63,6 +72,16 @@ pub(super) enum Fact {
     Holds,
     Bounds(Bounds),
     Found(Found),
+    Lies {
+        offset: Value,
+        len: Value,
+    },
+    /// Beside `x`, if that stands in the ring of `v`, so many bytes from its start.
+    Beside {
+        x: Value,
+        v: Value,
+        at: Value,
+    },
     /// An address.
     At(Value),
     Is(Value),
@@ -120,7 +139,44 @@ impl Known {
 
     /// Rings, as they are or as they were, may have changed or moved.
     pub(super) fn forget_rings(&mut self, of_old: bool) {
-        self.facts.retain(|key, _| !matches!(key, Key::Bounds { old, .. } | Key::Find { old, .. } if *old == of_old));
+        self.forget_rings_but(of_old, |_| false);
+    }
+
+    /// The ring of `v` may have changed, and the arena may have moved.
+    pub(super) fn forget_ring(&mut self, v: Value) {
+        let others: Vec<Value> = self.facts.iter().filter_map(|(key, (fact, _))| ring_of(key, fact)).collect();
+        let others: Vec<Value> = others.into_iter().filter(|&w| self.differ(v, w)).collect();
+        self.forget_rings_but(false, |w| others.contains(&w));
+    }
+
+    /// The arena may have moved.
+    pub(super) fn forget_addresses(&mut self) {
+        self.forget_rings_but(false, |_| true);
+    }
+
+    /// Rings may have changed, but for those of some vertices. The arena may have moved.
+    fn forget_rings_but(&mut self, of_old: bool, stays: impl Fn(Value) -> bool) {
+        self.facts.retain(|key, (fact, _)| match key {
+            Key::Bounds { old, .. } | Key::Find { old, .. } => *old != of_old,
+            key => of_old || ring_of(key, fact).is_none_or(&stays),
+        });
+    }
+
+    /// Where `x` stands in the ring of `v` as it is, bytes from its start, if it is sure to.
+    pub(super) fn place(&self, x: Value, v: Value) -> Option<Value> {
+        match (self.get(Key::Stands { x, v }), self.get(Key::Find { x, v, old: false })) {
+            (Some(Fact::Is(at)), _) => Some(at),
+            (_, Some(Fact::Found(found))) if found.certain => Some(found.at),
+            _ => None,
+        }
+    }
+
+    /// A vertex is not null.
+    pub(super) fn is_not_null(&mut self, x: Value) {
+        self.learn(Key::NotNull(x), Fact::Holds);
+        if let Some(Fact::Beside { x, v, at }) = self.get(Key::Beside(x)) {
+            self.learn(Key::Stands { x, v }, Fact::Is(at));
+        }
     }
 
     /// A vertex was created just now.
@@ -175,6 +231,18 @@ impl Known {
         }
     }
 
+    /// The ring of `v` is made of these: none was there twice but gaps.
+    pub(super) fn made_of(&mut self, items: &[Value], v: Value) {
+        for (i, &x) in items.iter().enumerate() {
+            self.learn_that_differ(x, v);
+            for &y in &items[..i] {
+                if self.holds(Key::NotNull(x)) || self.holds(Key::NotNull(y)) {
+                    self.learn_that_differ(x, y);
+                }
+            }
+        }
+    }
+
     /// The ring of `v` is made.
     pub(super) fn made(&mut self, v: Value) {
         for i in 0..self.fresh.len() {
@@ -185,5 +253,13 @@ impl Known {
     /// New vertices may have been put anywhere.
     pub(super) fn forget_new(&mut self) {
         self.fresh.clear();
+    }
+}
+
+/// The vertex whose ring, as it is and wherever it lies, a fact is about.
+fn ring_of(key: &Key, fact: &Fact) -> Option<Value> {
+    match (key, fact) {
+        (&(Key::Lies(v) | Key::Stands { v, .. }), _) | (Key::Beside(_), &Fact::Beside { v, .. }) => Some(v),
+        _ => None,
     }
 }

@@ -72,7 +72,7 @@ impl<'p> Translator<'_, 'p> {
         if !self.known.holds(Key::NotNull(v)) {
             let null = self.b.ins().icmp_imm_s(IntCC::Equal, v, 0);
             self.fail_if(null);
-            self.known.learn(Key::NotNull(v), Fact::Holds);
+            self.known.is_not_null(v);
         }
     }
 
@@ -100,7 +100,7 @@ impl<'p> Translator<'_, 'p> {
             self.b.ins().brif(holds, next, &[], fail, &[]);
         }
         self.continue_in(next);
-        self.known.learn(Key::NotNull(v), Fact::Holds);
+        self.known.is_not_null(v);
         self.known.learn(Key::Held(v), Fact::Holds);
     }
 
@@ -137,10 +137,19 @@ impl<'p> Translator<'_, 'p> {
         if let Some(Fact::Bounds(bounds)) = self.known.get(Key::Bounds { v, old }) {
             return bounds;
         }
-        let head = self.head(v, old);
-        let flags = if old { self.regions.old } else { self.regions.heads };
-        let offset = self.load_number(flags, head, context::HEAD_OFFSET);
-        let len = self.load_number(flags, head, context::HEAD_LEN);
+        let (offset, len) = match self.known.get(Key::Lies(v)) {
+            Some(Fact::Lies { offset, len }) if !old => (offset, len),
+            _ => {
+                let head = self.head(v, old);
+                let flags = if old { self.regions.old } else { self.regions.heads };
+                let offset = self.load_number(flags, head, context::HEAD_OFFSET);
+                let len = self.load_number(flags, head, context::HEAD_LEN);
+                if !old {
+                    self.known.learn(Key::Lies(v), Fact::Lies { offset, len });
+                }
+                (offset, len)
+            }
+        };
         let start = self.slot_address(offset, old);
         let bounds = Bounds { start, len, flags: if old { self.regions.old } else { self.regions.slots } };
         self.known.learn(Key::Bounds { v, old }, Fact::Bounds(bounds));
@@ -202,10 +211,23 @@ impl<'p> Translator<'_, 'p> {
         if self.unit.facts.fresh_capacity <= 4 { &[4, 8] } else { &[8, 12, 16] }
     }
 
+    /// Widths of rings that are edited in line where they have room for so many slots, as rings of programs that splice
+    /// have.
+    pub(super) fn edit_widths(&self) -> &'static [i64] {
+        if self.unit.facts.fresh_capacity <= 4 { &[4, 8] } else { &[6, 8, 12, 16] }
+    }
+
     /// For each width: goes on, in a block of its own, where a ring has at most so many slots but for `less`. Beyond the
     /// last it goes to `slow`.
-    pub(super) fn by_width(&mut self, len: Value, less: i64, slow: Block, mut work: impl FnMut(&mut Self, i64)) {
-        for &width in self.widths() {
+    pub(super) fn by_width(
+        &mut self,
+        widths: &[i64],
+        len: Value,
+        less: i64,
+        slow: Block,
+        mut work: impl FnMut(&mut Self, i64),
+    ) {
+        for &width in widths {
             let [here, longer] = [(); 2].map(|()| self.b.create_block());
             let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, len, width - less);
             self.b.ins().brif(long, longer, &[], here, &[]);
@@ -225,11 +247,18 @@ impl<'p> Translator<'_, 'p> {
         }
         let Bounds { start, len, flags } = self.bounds_of(source)?;
         let bytes = self.bytes_of(len);
+        if let (Some(x), Source::Of { v, old: false }) = (x, source)
+            && let Some(at) = self.known.place(x, v)
+        {
+            let found = Found { start, bytes, at, certain: true, flags };
+            self.known.learn(Key::Find { x, v, old: false }, Fact::Found(found));
+            return Ok(found);
+        }
         let (done, results) = self.block_with(&[types::I64, types::I64]);
         let [slow, missing] = [(); 2].map(|()| self.b.create_block());
         self.b.set_cold_block(slow);
         if let Some(x) = x {
-            self.by_width(len, 0, slow, |t, width| {
+            self.by_width(self.widths(), len, 0, slow, |t, width| {
                 let lanes = t.lanes(start, width, flags);
                 let at = t.first_match(&lanes, x);
                 let found = t.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes);

@@ -240,7 +240,7 @@ impl<'p> Translator<'_, 'p> {
         let (ready, address) = self.block_with(&[types::I64]);
         let slow = self.b.create_block();
         self.b.set_cold_block(slow);
-        self.by_width(len, 0, slow, |t, width| {
+        self.by_width(self.widths(), len, 0, slow, |t, width| {
             let locals = t.regions.locals;
             for (k, lane) in t.lanes(start, width, flags).into_iter().enumerate() {
                 t.b.ins().store(locals, lane, copy, 16 * k as i32);
