@@ -8,6 +8,7 @@
 )]
 
 mod command_line;
+mod editors;
 mod fixtures;
 mod live_reload;
 mod pictures;
