@@ -2,6 +2,7 @@
 
 mod check;
 mod convert;
+mod diff;
 mod fmt;
 mod info;
 mod input;
@@ -12,6 +13,7 @@ mod picture;
 mod reference;
 mod report;
 mod run;
+mod shell;
 mod view;
 
 use std::path::PathBuf;
@@ -31,7 +33,7 @@ Exit codes:
   2  the command line is wrong
   3  a file could not be read or written
   4  a budget (vertices, memory, call depth) or the time is used up
-  5  the result differs from the reference, or a program from its layout by `vv fmt`
+  5  the result differs from the reference, a mesh from another, or a program from its layout by `vv fmt`
   6  no renderer: no display for the window, no GPU or software driver for pictures";
 
 const EXAMPLES: &str = "\
@@ -44,6 +46,7 @@ Examples:
   vv fmt --check *.vv
   vv mesh info bunny.obj
   vv mesh convert bunny.obj -o bunny.off
+  vv mesh diff before.obj after.obj
 
 ";
 
@@ -86,7 +89,13 @@ enum Command {
     ///
     /// A language server. Editors start it and speak with it over stdin and stdout (LSP 3.17).
     Lsp(lsp::Arguments),
-    /// Look at mesh files and convert them.
+    /// Write what a shell needs to complete commands and options.
+    ///
+    /// For bash: `vv completions bash > ~/.local/share/bash-completion/completions/vv`.
+    Completions(shell::Completions),
+    /// Write the manual pages of all commands, `vv.1`, `vv-run.1`, …, into a folder.
+    Man(shell::Man),
+    /// Look at mesh files, compare and convert them.
     #[command(subcommand)]
     Mesh(MeshCommand),
 }
@@ -101,6 +110,12 @@ enum MeshCommand {
     ///
     /// Reads it as `vv run` would. Polygons and the order of the vertices are kept.
     Convert(convert::Arguments),
+    /// Compare two meshes, whatever the order of their vertices and faces.
+    ///
+    /// They are the same if vertices can be put on vertices so that rings (and so faces, with their sides) come to lie on
+    /// rings, and none is farther off than the tolerance; properties are not compared. Says what differs, with exit code
+    /// 5.
+    Diff(diff::Arguments),
 }
 
 /// How errors and warnings are written.
@@ -147,7 +162,7 @@ enum Exit {
     File = 3,
     /// A budget or the time is used up.
     Budget = 4,
-    /// The result is not the reference, a program not laid out.
+    /// The result is not the reference, a mesh not the other, a program not laid out.
     Different = 5,
     /// No display or no GPU.
     NoRenderer = 6,
@@ -164,6 +179,9 @@ pub fn main() -> ExitCode {
         Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),
         Some(Command::Lsp(arguments)) => lsp::lsp(&arguments),
         Some(Command::Mesh(MeshCommand::Info(arguments))) => info::info(&arguments),
+        Some(Command::Completions(arguments)) => shell::completions(&arguments),
+        Some(Command::Man(arguments)) => shell::man(&arguments),
+        Some(Command::Mesh(MeshCommand::Diff(arguments))) => diff::diff(&arguments),
         Some(Command::Mesh(MeshCommand::Convert(arguments))) => convert::convert(&arguments),
     };
     result.map_or_else(|exit| ExitCode::from(exit as u8), |()| ExitCode::SUCCESS)

@@ -20,6 +20,7 @@ pub mod close;
 mod column;
 pub mod faces;
 mod finder;
+pub mod isomorphism;
 mod members;
 mod property;
 mod ring;

@@ -38,3 +38,54 @@ fn conversion_keeps_vertices_and_faces() {
     folder.check("mesh convert b.obj -o c.off", 0, "");
     assert_eq!(folder.read("a.off"), folder.read("c.off"));
 }
+
+#[test]
+fn meshes_are_compared_whatever_their_order() {
+    let turned = "v 0 0 -1\nv 0 0 1\nv 0 -1 0\nv 0 1 0\nv -1 0 0\nv 1 0 0.5\n\
+                  f 4 2 6\nf 5 2 4\nf 3 2 5\nf 6 2 3\nf 4 6 1\nf 5 4 1\nf 3 5 1\nf 6 3 1\n";
+    let moved = OCTAHEDRON.replace("v 1 0 0", "v 1 0 0.5");
+    let inside_out: String = OCTAHEDRON
+        .lines()
+        .map(|line| match line.split(' ').collect::<Vec<_>>()[..] {
+            ["f", a, b, c] => format!("f {c} {b} {a}\n"),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    let chiral = |faces: &str| format!("v 0 0 0\nv 4 0 0\nv 2 4 0\nv -1 -1 0\nv 5 -1 0\nv 6 -2 0\n{faces}");
+    let files = [
+        ("turned.obj", turned),
+        ("moved.obj", moved.as_str()),
+        ("inside-out.obj", inside_out.as_str()),
+        ("left.obj", &chiral("f 1 2 3\nf 1 4 2\nf 2 5 6 3\n")),
+        ("right.obj", &chiral("f 3 2 1\nf 2 4 1\nf 3 6 5 2\n")),
+    ];
+    let folder = Folder::with(&files);
+    #[track_caller]
+    fn said(folder: &Folder, arguments: &str, code: i32, expected: &str) {
+        let ended = folder.check(arguments, code, "");
+        assert_eq!(ended.stdout, expected, "{arguments}");
+    }
+    said(&folder, "mesh diff octahedron.obj octahedron.obj", 0, "the same\n");
+    said(&folder, "mesh diff moved.obj turned.obj", 0, "the same\n");
+    said(
+        &folder,
+        "mesh diff octahedron.obj turned.obj --tolerance 0.6",
+        0,
+        "the same: v1 of the one and v6 of the other are farthest apart, by 5e-1\n",
+    );
+    said(
+        &folder,
+        "mesh diff octahedron.obj turned.obj",
+        5,
+        "the same connectivity, but v1 of the one and v6 of the other are 5e-1 apart\n",
+    );
+    // An octahedron that is turned inside out is one that lies elsewhere.
+    assert!(folder.check("mesh diff octahedron.obj inside-out.obj", 5, "").stdout.starts_with("the same connectivity"));
+    said(&folder, "mesh diff left.obj right.obj", 5, "the same connectivity, but one is the other turned inside out\n");
+    let counts = folder.check("mesh diff octahedron.obj square.off", 5, "").stdout;
+    assert!(counts.starts_with("vertices        6  ≠  4\n"), "{counts}");
+    let object = json(&folder.check("mesh diff octahedron.obj turned.obj --json", 5, "").stdout);
+    assert_eq!((&object["same_connectivity"], &object["vertices"]), (&json("true"), &json("[1, 6]")));
+    folder.check("mesh diff octahedron.obj none.obj", 3, "none.obj");
+    folder.check("mesh diff octahedron.obj turned.obj --tolerance -1", 2, "a distance is a number from 0 on");
+}

@@ -62,3 +62,16 @@ fn help_and_version_are_there() {
     assert!(help.contains("Exit codes:") && help.contains("Examples:"));
     assert!(check("--version", 0, "").stdout.starts_with("vv "));
 }
+
+#[test]
+fn shells_and_man_know_the_commands() {
+    let folder = Folder::with(&[]);
+    for shell in ["bash", "zsh", "fish"] {
+        let text = folder.check(&format!("completions {shell}"), 0, "").stdout;
+        assert!(text.contains("--diagnostic-format") || text.contains("diagnostic-format"), "{shell}");
+    }
+    folder.check("man .", 0, "");
+    assert!(folder.read("vv-mesh-diff.1").contains("tolerance"));
+    assert!(folder.read("vv.1").contains("Exit codes"));
+    folder.check("man nowhere", 3, "nowhere: ");
+}
