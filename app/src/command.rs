@@ -18,6 +18,7 @@ use vv::mesh::Value;
 
 use crate::camera::Camera;
 use crate::document::MeshSource;
+use crate::preferences::Preferences;
 use crate::scene::Style;
 use crate::session::{Purpose, Session};
 
@@ -37,6 +38,13 @@ pub enum Command {
     Open(PathBuf),
     /// A program that ships with vv.
     OpenExample(&'static str),
+    /// The same as the gallery shows it: on a mesh that suits it, unless the one that is open is to be kept.
+    Exhibit {
+        /// Which program.
+        program: &'static str,
+        /// Whether the mesh stays.
+        keep_mesh: bool,
+    },
     /// A mesh that ships with vv, or none.
     UseMesh(MeshSource),
     /// The program into its file.
@@ -45,6 +53,8 @@ pub enum Command {
     SaveTo(PathBuf),
     /// The mesh shown into a file.
     ExportTo(PathBuf),
+    /// What is seen into a PNG file.
+    PictureTo(PathBuf),
     /// Takes what another program wrote into the program's file.
     TakeFromDisk,
     /// Goes on with the text in the editor.
@@ -148,6 +158,14 @@ pub enum Command {
     /// How many generations follow each other in a second, at most.
     SetSpeed(f64),
 
+    /// All programs that ship with vv, with pictures.
+    Gallery,
+    /// What is as the user likes it.
+    Preferences,
+    /// That.
+    SetPreferences(Preferences),
+    /// What is seen into a file: asks for its size first.
+    SavePicture,
     /// All commands, to be found by typing.
     Palette,
     /// All keys.
@@ -283,7 +301,9 @@ impl Command {
                 ("Save project as…", "save program, mesh, parameters and view together", &[])
             }
             Self::ForgetRecent => ("Forget recent files", "empty the list of files that were open", &[]),
-            Self::Save => ("Save program", "save the program to its file", const { &[ctrl(Key::S)] }),
+            Self::Save => {
+                ("Save", "save the program to its file, and the project if one is open", const { &[ctrl(Key::S)] })
+            }
             Self::Quit => ("Quit", "close the window", const { &[ctrl(Key::Q)] }),
             Self::TakeFromDisk => ("Reload", "take the text on disk; the one in the editor is lost", &[]),
             Self::KeepMine => ("Keep mine", "go on with the text in the editor; saving replaces the file", &[]),
@@ -336,7 +356,18 @@ impl Command {
             Self::Reference => {
                 ("Language reference", "the manual of the language, beside the work", const { &[key(Key::F1)] })
             }
-            Self::Open(_)
+            Self::Gallery => {
+                ("Gallery…", "all programs that ship with vv, with pictures", const { &[ctrl_shift(Key::G)] })
+            }
+            Self::Preferences => ("Preferences…", "set vv up as you like it", const { &[ctrl(Key::Comma)] }),
+            Self::SavePicture => {
+                ("Save picture as…", "write what is seen into a PNG file, in any size", const { &[key(Key::F12)] })
+            }
+            Self::Choose(Purpose::SavePicture)
+            | Self::SetPreferences(_)
+            | Self::PictureTo(_)
+            | Self::Exhibit { .. }
+            | Self::Open(_)
             | Self::OpenExample(_)
             | Self::UseMesh(_)
             | Self::SaveTo(_)
@@ -373,7 +404,7 @@ impl Command {
             Self::End => session.document.generation < session.last_reached(),
             Self::Step | Self::Play => session.can_step(),
             Self::Stop => session.is_busy() || session.is_playing(),
-            Self::Choose(Purpose::ExportMesh) | Self::CopyImage => session.frame().is_some(),
+            Self::Choose(Purpose::ExportMesh) | Self::CopyImage | Self::SavePicture => session.frame().is_some(),
             Self::ForgetRecent => !session.recent().is_empty(),
             Self::View(action) => action.is_enabled(session),
             Self::Undo => session.can_undo(),
@@ -448,7 +479,8 @@ impl TextAction {
 /// Whether a key acts also while text is being typed.
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
-    let function = matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11);
+    let function =
+        matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11 | Key::F12);
     // Ctrl with an arrow goes from word to word.
     let walks = matches!(shortcut.logical_key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown);
     shortcut.modifiers.command && !walks || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape

@@ -19,6 +19,7 @@ mod clicks;
 mod dialogs;
 mod editor;
 mod findings;
+mod gallery;
 mod inspector;
 mod keys;
 mod marks;
@@ -28,8 +29,10 @@ mod overlay;
 mod palette;
 mod parameters;
 mod picture;
+mod preferences;
 mod reference;
 mod ring;
+mod saving;
 mod selection;
 mod theme;
 mod timeline;
@@ -45,6 +48,7 @@ use std::sync::Arc;
 use eframe::{egui, egui_wgpu};
 
 use crate::command::{Command, ThemeChoice};
+use crate::preferences::Preferences;
 use crate::render;
 use crate::session::Session;
 use crate::store::Store;
@@ -117,11 +121,14 @@ pub struct App {
     viewport: viewport::Viewport,
     messages: messages::Messages,
     reference: reference::Reference,
+    gallery: gallery::Gallery,
     title: String,
     quitting: bool,
     /// What was asked of the window manager last, and what it said last.
     full_screen: bool,
     was_full_screen: bool,
+    scale: Scale,
+    font_size: f32,
     /// What had the keys before a dialog opened.
     focus: Option<egui::Id>,
     /// Frames until they get them back, from the dialog's last one on.
@@ -162,10 +169,13 @@ impl App {
             viewport: viewport::Viewport::new(render_state, wake)?,
             messages: messages::Messages::default(),
             reference: reference::Reference::default(),
+            gallery: gallery::Gallery::default(),
             title: String::new(),
             quitting: false,
             full_screen: false,
             was_full_screen: false,
+            scale: Scale::default(),
+            font_size: 0.0,
             focus: None,
             asked: 0,
         })
@@ -275,12 +285,41 @@ impl App {
 
     fn set_title(&mut self, ctx: &egui::Context) {
         let program = &self.session.document.program;
-        let mark = if program.is_modified() { "● " } else { "" };
-        let title = format!("{mark}{} – {} – vv", program.name, self.session.document.mesh.name());
+        let mark = if self.session.is_unsaved() { "● " } else { "" };
+        let project = self.session.project_path().map(|path| format!("{}: ", crate::document::file_name(path)));
+        let project = project.unwrap_or_default();
+        let title = format!("{mark}{project}{} – {} – vv", program.name, self.session.document.mesh.name());
         if title != self.title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;
         }
+    }
+}
+
+/// Size of everything, which egui's keys change as well as the preferences.
+#[derive(Default)]
+struct Scale {
+    /// What egui had last, and what it was asked for last.
+    had: f32,
+    asked: f32,
+}
+
+impl Scale {
+    /// Brings both together; returns what the preferences shall say, if the keys have changed it.
+    fn agree(&mut self, ctx: &egui::Context, wanted: f32) -> Option<f32> {
+        let has = ctx.zoom_factor();
+        let first = self.had == 0.0;
+        if has != self.had && !first {
+            let by_keys = has != self.asked;
+            (self.had, self.asked) = (has, has);
+            return by_keys.then_some(has);
+        }
+        self.had = has;
+        if wanted != self.asked {
+            self.asked = wanted;
+            ctx.set_zoom_factor(wanted);
+        }
+        None
     }
 }
 
@@ -295,6 +334,14 @@ impl eframe::App for App {
             ThemeChoice::Light => egui::ThemePreference::Light,
             ThemeChoice::Dark => egui::ThemePreference::Dark,
         });
+        let preferences = self.session.preferences;
+        if self.font_size != preferences.font_size {
+            self.font_size = preferences.font_size;
+            theme::set_font_size(ctx, self.font_size);
+        }
+        if let Some(scale) = self.scale.agree(ctx, preferences.scale) {
+            self.session.apply(Command::SetPreferences(Preferences { scale, ..preferences }));
+        }
         self.close(ctx);
         self.set_title(ctx);
         let full_screen = ctx.input(|i| i.viewport().fullscreen).unwrap_or(false);
@@ -321,7 +368,7 @@ impl eframe::App for App {
         if self.session.reference {
             self.reference.show(ui.ctx(), &mut commands);
         }
-        dialogs::show(ui.ctx(), &mut self.session, &mut commands);
+        dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
         clicks::take_pointed(ui.ctx(), &self.session, &mut commands);
         if !commands.is_empty() {
             // What they change is seen in the next frame.

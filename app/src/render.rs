@@ -24,7 +24,7 @@ use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 use crate::trace;
 
-pub use headless::{Headless, render_image};
+pub use headless::{Headless, put_on_white, render_image};
 pub use target::Target;
 pub use upload::Uploaded;
 

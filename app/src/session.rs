@@ -7,6 +7,7 @@ mod files;
 mod generations;
 mod inspecting;
 mod keeping;
+mod pictures;
 mod problem;
 mod reading;
 mod text;
@@ -28,6 +29,7 @@ use crate::camera::Camera;
 use crate::command::{Command, Panel, Reload, TextAction, ThemeChoice};
 use crate::document::{Document, MeshSource, ProgramText};
 use crate::navigation::Navigation;
+use crate::preferences::Preferences;
 use crate::render::Size;
 use crate::scene::{Sphere, Style};
 use crate::store::{Orphan, Store};
@@ -47,9 +49,6 @@ const GRACE: Duration = Duration::from_millis(250);
 pub(crate) const SPEED: f64 = 2.0;
 /// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(6);
-/// Bytes that kept generations may use.
-const MEMORY: usize = 2 << 30;
-
 /// What a file is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
@@ -65,6 +64,8 @@ pub enum Purpose {
     OpenProject,
     /// To save a project.
     SaveProject,
+    /// To save what is seen.
+    SavePicture,
 }
 
 /// A question to the user.
@@ -99,11 +100,32 @@ pub enum Dialog {
         /// As typed so far.
         text: String,
     },
+    /// Which program?
+    Gallery {
+        /// As typed so far.
+        query: String,
+        /// Which of [`crate::gallery::EXHIBITS`].
+        selected: usize,
+        /// Whether the mesh that is open stays.
+        keep_mesh: bool,
+    },
+    /// How shall vv be?
+    Preferences,
+    /// How shall the picture be?
+    Picture,
     /// All keys.
     CheatSheet {
         /// As typed so far.
         query: String,
     },
+}
+
+impl Dialog {
+    /// The gallery, as it opens.
+    #[must_use]
+    pub fn gallery() -> Self {
+        Self::Gallery { query: String::new(), selected: 0, keep_mesh: true }
+    }
 }
 
 /// Why what is shown is not what is wanted.
@@ -181,6 +203,8 @@ pub struct Session {
     pub dialog: Option<Dialog>,
     /// When a changed text is run.
     pub reload: Reload,
+    /// What is as the user likes it.
+    pub preferences: Preferences,
     /// How many generations follow each other in a second when playing, at most.
     pub speed: f64,
     /// What hands do to the view.
@@ -205,8 +229,11 @@ pub struct Session {
     store: Option<Store>,
     orphan: Option<Orphan>,
     keeping: keeping::Keeping,
+    project: Option<keeping::OpenProject>,
     recent: Vec<PathBuf>,
     worker: Worker,
+    /// Bytes that generations may be kept in, whatever the user likes.
+    most_memory: usize,
     watch: Watch,
     wake: Arc<dyn Fn() + Send + Sync>,
     includes_revision: u64,
@@ -257,7 +284,9 @@ impl Session {
     ) -> std::io::Result<Self> {
         let limits = evaluation::machine_limits();
         let (waker, watcher) = (Arc::clone(&wake), Arc::clone(&wake));
-        let worker = Worker::start(limits, MEMORY.min(limits.max_bytes / 4), move || waker())?;
+        let preferences = Preferences::default();
+        let most_memory = limits.max_bytes / 2;
+        let worker = Worker::start(limits, (preferences.memory << 20).min(most_memory), move || waker())?;
         let watch = Watch::start(move || watcher())?;
         let mut session = Self {
             document: welcome(mesh.is_none() && program.is_none()),
@@ -269,6 +298,7 @@ impl Session {
             reference: false,
             dialog: None,
             reload: Reload::Typed,
+            preferences,
             reveal: None,
             text_actions: Vec::new(),
             view: None,
@@ -280,8 +310,10 @@ impl Session {
             store: None,
             orphan: None,
             keeping: keeping::Keeping::default(),
+            project: None,
             recent: Vec::new(),
             worker,
+            most_memory,
             watch,
             wake,
             includes_revision: 0,
@@ -313,6 +345,9 @@ impl Session {
             session.remember_with(store);
         }
         session.ask_now();
+        if mesh.is_none() && program.is_none() {
+            session.begin();
+        }
         if let Some(path) = program {
             session.open_program(&path);
         }
@@ -328,10 +363,13 @@ impl Session {
         let is_undo =
             matches!(command, Command::Undo | Command::Redo | Command::UndoText | Command::RedoText | Command::Stop);
         let (kind, programs) = (undo::kind_of(&command), self.programs());
-        let (text, state) = (Arc::clone(&self.document.program.text), self.state());
+        let (text, state, document) = (Arc::clone(&self.document.program.text), self.state(), self.document.clone());
         self.carry_out(command);
         if !is_undo {
             self.record(kind, &text, state, programs);
+        }
+        if programs == self.programs() {
+            self.touch(&document);
         }
     }
 
@@ -356,13 +394,14 @@ impl Session {
                     s.set_program(ProgramText::new(example.name, example.text));
                 }
             }),
+            Command::Exhibit { program, keep_mesh } => {
+                self.unless_unsaved(command, |s| s.show_exhibit(program, keep_mesh));
+            }
             Command::UseMesh(source) => self.use_mesh(source),
-            Command::Save => match self.document.program.path.clone() {
-                Some(path) => self.save_to(&path),
-                None => self.choose(Purpose::SaveProgram),
-            },
+            Command::Save => self.save(),
             Command::SaveTo(path) => self.save_to(&path),
             Command::ExportTo(path) => self.export_to(path),
+            Command::PictureTo(path) => self.picture_to(path),
             Command::TakeFromDisk => {
                 if let Some(text) = self.text_on_disk.take() {
                     self.document.program.saved = Arc::clone(&text);
@@ -381,7 +420,7 @@ impl Session {
             Command::AnswerUnsaved(answer) => self.answer_unsaved(answer),
             // A text that nobody has said anything about is kept.
             Command::CloseDialog => self.dialog = None,
-            Command::Quit => self.unless_unsaved(command, |s| s.wants_quit = true),
+            Command::Quit => self.unless_unsaved(command, Self::end),
 
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),
@@ -459,6 +498,10 @@ impl Session {
             Command::SetTheme(theme) => self.theme = theme,
             Command::FullScreen => self.full_screen = !self.full_screen,
             Command::Reference => self.reference = !self.reference,
+            Command::Gallery => self.dialog = Some(Dialog::gallery()),
+            Command::Preferences => self.dialog = Some(Dialog::Preferences),
+            Command::SavePicture => self.dialog = Some(Dialog::Picture),
+            Command::SetPreferences(preferences) => self.prefer(preferences),
             Command::Palette => self.dialog = Some(Dialog::Palette { query: String::new(), selected: 0 }),
             Command::CheatSheet => self.dialog = Some(Dialog::CheatSheet { query: String::new() }),
             Command::Toggle(Panel::Program) => self.panels.program = !self.panels.program,

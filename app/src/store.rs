@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::command::{Reload, ThemeChoice};
 use crate::files;
 use crate::navigation::Navigation;
+use crate::preferences::Preferences;
 use crate::project::Project;
 use crate::session::Panels;
 
@@ -36,6 +37,12 @@ pub struct Settings {
     pub recent: Vec<PathBuf>,
     /// What hands do to the view.
     pub navigation: Navigation,
+    /// What the dialog of this name sets.
+    #[serde(flatten)]
+    pub preferences: Preferences,
+    /// What another version of vv has set and this one does not know: it is kept.
+    #[serde(flatten)]
+    pub others: serde_json::Map<String, serde_json::Value>,
 }
 
 impl Default for Settings {
@@ -47,6 +54,8 @@ impl Default for Settings {
             speed: crate::session::SPEED,
             recent: Vec::new(),
             navigation: Navigation::default(),
+            preferences: Preferences::default(),
+            others: serde_json::Map::new(),
         }
     }
 }
@@ -62,9 +71,23 @@ impl Settings {
     }
 }
 
+/// What a file says, setting by setting, over the defaults: one from another version may say things that have no meaning
+/// here, which is no reason to forget the others.
+fn understood(said: serde_json::Map<String, serde_json::Value>) -> Settings {
+    let mut settings = Settings::default();
+    for (name, value) in said {
+        let Ok(serde_json::Value::Object(mut all)) = serde_json::to_value(&settings) else { continue };
+        all.insert(name, value);
+        settings = serde_json::from_value(serde_json::Value::Object(all)).unwrap_or(settings);
+    }
+    settings
+}
+
 /// Something to be on the disk.
 enum Job {
     Settings(Settings),
+    /// What was open at the end.
+    Last(Box<Project>),
     /// `None` takes it away.
     Recovery(Option<Box<Project>>),
 }
@@ -126,6 +149,7 @@ impl Store {
         let trouble = Arc::new(Mutex::new(None));
         let writer = Writer {
             settings: folder.join("settings.json"),
+            last: folder.join("last-session.json"),
             recovery: lock_path.with_extension("json"),
             trouble: Arc::clone(&trouble),
         };
@@ -134,11 +158,11 @@ impl Store {
         Ok(Self { folder, jobs: Some(jobs), thread: Some(thread), trouble, _lock: lock, lock_path })
     }
 
-    /// What was remembered; what cannot be read is forgotten.
+    /// What was remembered. What cannot be understood is forgotten, and that alone.
     #[must_use]
     pub fn settings(&self) -> Settings {
         let bytes = fs::read(self.folder.join("settings.json")).unwrap_or_default();
-        let mut settings: Settings = serde_json::from_slice(&bytes).unwrap_or_default();
+        let mut settings = understood(serde_json::from_slice(&bytes).unwrap_or_default());
         if !(0.1..=60.0).contains(&settings.speed) {
             settings.speed = crate::session::SPEED;
         }
@@ -153,6 +177,18 @@ impl Store {
     /// Keeps what would be lost; `None` if nothing would.
     pub fn keep(&self, unsaved: Option<Project>) {
         self.send(Job::Recovery(unsaved.map(Box::new)));
+    }
+
+    /// Remembers what was open at the end.
+    pub fn keep_last(&self, project: Project) {
+        self.send(Job::Last(Box::new(project)));
+    }
+
+    /// What was open at the end of the last session.
+    #[must_use]
+    pub fn last_session(&self) -> Option<Project> {
+        let bytes = fs::read(self.folder.join("last-session.json")).ok()?;
+        Project::from_json(&bytes, None).ok()
     }
 
     /// What could not be written, once.
@@ -200,6 +236,7 @@ impl Drop for Store {
 
 struct Writer {
     settings: PathBuf,
+    last: PathBuf,
     recovery: PathBuf,
     trouble: Arc<Mutex<Option<String>>>,
 }
@@ -207,17 +244,21 @@ struct Writer {
 impl Writer {
     fn work(&self, jobs: &Receiver<Job>) {
         while let Ok(job) = jobs.recv() {
-            let (mut settings, mut recovery) = (None, None);
+            let (mut settings, mut recovery, mut last) = (None, None, None);
             for job in std::iter::once(job).chain(jobs.try_iter()) {
                 match job {
                     Job::Settings(s) => settings = Some(s),
                     Job::Recovery(r) => recovery = Some(r),
+                    Job::Last(l) => last = Some(l),
                 }
             }
             match recovery {
                 Some(Some(project)) => self.write(&self.recovery, project.to_json(None)),
                 Some(None) => drop(fs::remove_file(&self.recovery)),
                 None => {}
+            }
+            if let Some(project) = last {
+                self.write(&self.last, project.to_json(None));
             }
             if let Some(settings) = settings {
                 self.write(&self.settings, serde_json::to_vec_pretty(&settings).map_err(|e| e.to_string()));
@@ -267,6 +308,22 @@ mod tests {
         store.keep_settings(&settings);
         drop(store);
         assert_eq!(Store::open(folder.path()).unwrap().settings(), settings);
+    }
+
+    #[test]
+    fn settings_of_another_version_are_kept_and_what_has_no_meaning_is_forgotten_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("settings.json");
+        fs::write(&path, r#"{"theme": "Pink", "tab_width": 4, "hologram": {"depth": 3}, "scale": "large"}"#).unwrap();
+        let store = Store::open(folder.path()).unwrap();
+        let mut settings = store.settings();
+        assert_eq!(settings.preferences, Preferences { tab_width: 4, ..Preferences::default() });
+        assert_eq!(settings.theme, ThemeChoice::System);
+        settings.theme = ThemeChoice::Dark;
+        store.keep_settings(&settings);
+        drop(store);
+        let written: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+        assert_eq!((&written["hologram"]["depth"], &written["theme"]), (&3.into(), &"Dark".into()));
     }
 
     #[test]

@@ -15,6 +15,7 @@ mod printer;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::JoinHandle;
@@ -197,6 +198,8 @@ struct Shared {
     filled: Condvar,
     console: Mutex<Console>,
     reached: Mutex<BTreeMap<u64, Reached>>,
+    /// Bytes that kept generations may use.
+    memory: AtomicUsize,
 }
 
 #[derive(Default)]
@@ -224,9 +227,10 @@ impl Worker {
             filled: Condvar::new(),
             console: Mutex::default(),
             reached: Mutex::default(),
+            memory: AtomicUsize::new(memory),
         });
         let (sender, reports) = mpsc::channel();
-        let bench = Bench::new(Arc::clone(&shared), sender, Arc::new(wake), limits, memory);
+        let bench = Bench::new(Arc::clone(&shared), sender, Arc::new(wake), limits);
         let thread = std::thread::Builder::new()
             .name("evaluation".to_owned())
             .stack_size(8 << 20)
@@ -242,6 +246,11 @@ impl Worker {
         lock(&self.shared.slot).request = Some((ticket.id, request, ticket.stop.clone()));
         self.shared.filled.notify_one();
         ticket
+    }
+
+    /// Bytes that generations may be kept in from the next one on.
+    pub fn keep_within(&self, bytes: usize) {
+        self.shared.memory.store(bytes, Ordering::Relaxed);
     }
 
     /// The oldest report that was not taken yet, also of requests whose ticket is gone.

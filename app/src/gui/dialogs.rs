@@ -4,33 +4,38 @@ use std::path::PathBuf;
 
 use eframe::egui::{Context, Frame, Id, Key, Margin, Modal, RichText, TextEdit, Ui};
 
-use super::{cheat_sheet, palette, selection};
+use super::gallery::Gallery;
+use super::{cheat_sheet, palette, preferences, saving, selection};
 use crate::command::{Answer, Command};
 use crate::session::{Dialog, Purpose, Session};
 
 /// Shows the one that is open.
-pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
+pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, commands: &mut Vec<Command>) {
     match &session.dialog {
         Some(Dialog::Palette { .. }) => return palette::show(ctx, session, commands),
         Some(Dialog::CheatSheet { .. }) => return cheat_sheet::show(ctx, session, commands),
         Some(Dialog::SelectVertex { .. }) => return selection::ask(ctx, session, commands),
+        Some(Dialog::Preferences) => return preferences::show(ctx, session, commands),
+        Some(Dialog::Picture) => return saving::show(ctx, session, commands),
+        Some(Dialog::Gallery { .. }) => return gallery.show(ctx, session, commands),
         _ => {}
     }
-    let name = session.document.program.name.clone();
+    let project = session.project_path().map(crate::document::file_name);
+    let name = project.clone().unwrap_or_else(|| session.document.program.name.clone());
     let Some(dialog) = &mut session.dialog else { return };
     let mut chosen = None;
     let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
     let response = Modal::new(Id::unique("dialog")).frame(frame).show(ctx, |ui| {
         ui.set_width(380.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         match dialog {
-            Dialog::Unsaved { .. } => unsaved(ui, &name, commands),
+            Dialog::Unsaved { .. } => unsaved(ui, &name, project.is_some(), commands),
             Dialog::TypePath { purpose, path } => {
                 if let Some(path) = type_path(ui, *purpose, path, commands) {
                     chosen = Some((*purpose, path));
                 }
             }
             Dialog::Recover { name } => recover(ui, name, commands),
-            Dialog::Palette { .. } | Dialog::CheatSheet { .. } | Dialog::SelectVertex { .. } => {} // shown above
+            _ => {} // shown above
         }
     });
     if response.should_close() {
@@ -41,10 +46,14 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
     }
 }
 
-fn unsaved(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+fn unsaved(ui: &mut Ui, name: &str, is_project: bool, commands: &mut Vec<Command>) {
     ui.heading(format!("Save changes to {name}?"));
     ui.add_space(4.0);
-    ui.label("The text in the editor is not saved and would be lost.");
+    ui.label(if is_project {
+        "What has changed since the project was saved would be lost."
+    } else {
+        "The text in the editor is not saved and would be lost."
+    });
     ui.add_space(12.0);
     ui.horizontal(|ui| {
         if ui.button(RichText::new("Save").strong()).clicked() {
@@ -85,6 +94,7 @@ fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Ve
         Purpose::ExportMesh => ("Save mesh as", "Save"),
         Purpose::OpenProject => ("Open project", "Open"),
         Purpose::SaveProject => ("Save project as", "Save"),
+        Purpose::SavePicture => ("Save picture as", "Save"),
     };
     ui.heading(title);
     ui.add_space(4.0);
@@ -95,7 +105,7 @@ fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Ve
         response.request_focus();
     }
     let typed = PathBuf::from(path.trim());
-    let saves = matches!(purpose, Purpose::SaveProgram | Purpose::ExportMesh | Purpose::SaveProject);
+    let saves = !matches!(purpose, Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject);
     let named = !path.trim().is_empty();
     if named && saves && typed.exists() {
         ui.label(RichText::new("This file exists and will be replaced.").color(ui.visuals().warn_fg_color));

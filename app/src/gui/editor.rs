@@ -107,7 +107,7 @@ impl Editor {
                 self.change(ui.ctx(), change, commands);
             }
             let selection = self.selected.clone();
-            if let Some(change) = typing::take(ui, &self.buffer, &selection) {
+            if let Some(change) = typing::take(ui, &self.buffer, &selection, session.preferences.tab_width) {
                 self.change(ui.ctx(), change, commands);
             }
         } else {

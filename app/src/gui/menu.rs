@@ -1,16 +1,13 @@
 //! The menu bar.
 
-use std::path::Path;
-use std::sync::LazyLock;
-
 use eframe::egui::{MenuBar, Ui};
 
 use super::views;
 use super::widgets::menu_item;
 use crate::command::{Command, MENUS, Menu, outer};
-use crate::document::{MeshSource, NOWHERE};
-use crate::files;
-use crate::library::{self, Shipped};
+use crate::document::MeshSource;
+use crate::gallery::{EXHIBITS, Exhibit, Group};
+use crate::library;
 use crate::session::Session;
 
 /// Shows it.
@@ -65,13 +62,32 @@ fn recent(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 fn examples(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    ui.set_min_width(180.0);
-    for example in EXAMPLES.iter() {
-        let open = session.document.program.path.is_none() && session.document.program.name == example.name;
-        if ui.selectable_label(open, example.name).on_hover_text(headline(example.text)).clicked() {
-            commands.push(Command::OpenExample(example.name));
-            ui.close();
+    menu_item(ui, session, commands, Command::Gallery, false);
+    ui.separator();
+    // Side by side, so that all have room in a small window.
+    let columns: [&[Group]; 3] =
+        [&[Group::Subdivision], &[Group::Beyond, Group::Fractals], &[Group::Growth, Group::Paper]];
+    ui.horizontal_top(|ui| {
+        for groups in columns {
+            ui.vertical(|ui| {
+                ui.set_width(186.0);
+                for group in groups {
+                    ui.weak(group.title());
+                    for exhibit in EXHIBITS.iter().filter(|e| e.group == *group) {
+                        example(ui, session, commands, exhibit);
+                    }
+                    ui.add_space(6.0);
+                }
+            });
         }
+    });
+}
+
+fn example(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, exhibit: &Exhibit) {
+    let open = session.document.program.path.is_none() && session.document.program.name == exhibit.program;
+    if ui.selectable_label(open, exhibit.program).on_hover_text(exhibit.headline()).clicked() {
+        commands.push(Command::OpenExample(exhibit.program));
+        ui.close();
     }
 }
 
@@ -91,19 +107,4 @@ fn meshes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         commands.push(Command::UseMesh(MeshSource::Empty));
         ui.close();
     }
-}
-
-/// The programs that do something by themselves, which those made to be included do not.
-pub static EXAMPLES: LazyLock<Vec<&Shipped>> = LazyLock::new(|| {
-    let does_something = |shipped: &&Shipped| {
-        let (compilation, _) = files::compile(&Path::new(NOWHERE).join(shipped.name), shipped.text);
-        compilation.program.is_some_and(|program| !program.rules.is_empty() || program.start.is_some())
-    };
-    library::PROGRAMS.iter().filter(does_something).collect()
-});
-
-/// The first comment of a program.
-pub fn headline(text: &str) -> String {
-    let lines = text.lines().map(str::trim).take_while(|line| line.starts_with("//"));
-    lines.map(|line| line.trim_start_matches('/').trim()).collect::<Vec<_>>().join(" ")
 }

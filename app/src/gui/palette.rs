@@ -6,9 +6,9 @@ use eframe::egui::{
     TextFormat, TextStyle, Ui, WidgetInfo, vec2,
 };
 
-use super::menu::{EXAMPLES, headline};
 use crate::command::{Command, MENUS, Match, find};
 use crate::document::MeshSource;
+use crate::gallery::EXHIBITS;
 use crate::library;
 use crate::session::{Dialog, Session};
 
@@ -140,12 +140,12 @@ fn entries(session: &Session) -> Vec<Entry> {
             command: Command::Open(path.clone()),
         });
     }
-    for example in EXAMPLES.iter() {
+    for exhibit in EXHIBITS {
         entries.push(Entry {
             group: "Example",
-            label: example.name.to_owned(),
-            tooltip: headline(example.text),
-            command: Command::OpenExample(example.name),
+            label: exhibit.program.to_owned(),
+            tooltip: exhibit.headline(),
+            command: Command::OpenExample(exhibit.program),
         });
     }
     for mesh in library::MESHES {

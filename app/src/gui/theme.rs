@@ -51,6 +51,13 @@ fn fonts_and_distances(style: &mut Style) {
     spacing.tooltip_width = 420.0;
 }
 
+/// Sets the height of the program's letters.
+pub fn set_font_size(ctx: &Context, size: f32) {
+    ctx.all_styles_mut(|style| {
+        style.text_styles.insert(TextStyle::Monospace, FontId::new(size, FontFamily::Monospace));
+    });
+}
+
 fn rounded(visuals: &mut Visuals) {
     let radius = CornerRadius::same(5);
     let widgets = &mut visuals.widgets;

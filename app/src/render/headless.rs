@@ -166,6 +166,19 @@ fn adapter(name: Option<&str>) -> Result<wgpu::Adapter, String> {
     Err(cause)
 }
 
+/// Lays white behind a picture with transparent places.
+pub fn put_on_white(image: &mut RgbaImage) {
+    for pixel in image.pixels_mut().filter(|pixel| pixel.0[3] < 255) {
+        let [r, g, b, a] = pixel.0;
+        let opacity = f32::from(a) / 255.0;
+        let over = |c: u8| {
+            let light = to_linear(f32::from(c) / 255.0) * opacity + (1.0 - opacity);
+            (to_srgb(light) * 255.0).round() as u8
+        };
+        pixel.0 = [over(r), over(g), over(b), 255];
+    }
+}
+
 /// From light multiplied by opacity, as blending over nothing leaves it, to the plain colour that files hold.
 fn unmultiplied(pixel: [u8; 4]) -> [u8; 4] {
     let [r, g, b, a] = pixel;
@@ -180,6 +193,13 @@ fn unmultiplied(pixel: [u8; 4]) -> [u8; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn white_lies_behind_what_is_transparent() {
+        let mut image = RgbaImage::from_raw(3, 1, vec![9, 9, 9, 0, 0, 0, 0, 128, 10, 20, 30, 255]).unwrap();
+        put_on_white(&mut image);
+        assert_eq!(image.into_raw(), [255, 255, 255, 255, 187, 187, 187, 255, 10, 20, 30, 255]);
+    }
 
     #[test]
     fn half_covered_pixels_keep_their_colour() {

@@ -1,8 +1,8 @@
 //! Opening, saving, and files that change on disk.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
-use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 use vv::diagnostic::Severity;
@@ -13,7 +13,6 @@ use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::files;
 use crate::project::{self, Project};
-use crate::render::render_image;
 
 /// A file dialog that is gone sooner than this was never there.
 const NO_DIALOG: Duration = Duration::from_millis(500);
@@ -27,7 +26,7 @@ pub(super) struct Chooser {
 
 impl Session {
     pub(super) fn unless_unsaved(&mut self, command: Command, action: impl FnOnce(&mut Self)) {
-        if self.document.program.is_modified() || self.is_orphan() {
+        if self.is_unsaved() || self.is_orphan() {
             self.dialog = Some(Dialog::Unsaved { then: Box::new(command) });
         } else {
             action(self);
@@ -45,6 +44,7 @@ impl Session {
         if answer == Answer::Discard {
             self.dialog = None;
             // The saved text comes back, so that what follows finds nothing to lose.
+            self.project = None;
             self.document.program.text = Arc::clone(&self.document.program.saved);
             self.text_was_edited();
             if self.is_orphan() {
@@ -54,16 +54,34 @@ impl Session {
             self.carry_out(then);
             return;
         }
-        match self.document.program.path.clone() {
-            Some(path) => {
-                self.dialog = None;
-                self.save_to(&path);
+        if self.document.program.path.is_none() && self.project.is_none() {
+            // The question stays until the text has a file.
+            self.choose(Purpose::SaveProgram);
+            return;
+        }
+        self.dialog = None;
+        self.save();
+        if !self.is_unsaved() && !self.is_orphan() {
+            self.carry_out(then);
+        }
+    }
+
+    /// Saves the program, and the project that is open. A text without file has one in its project.
+    pub(super) fn save(&mut self) {
+        let program = &self.document.program;
+        let project = self.project_path().map(Path::to_owned);
+        match (program.path.clone(), project) {
+            (None, None) => self.choose(Purpose::SaveProgram),
+            (None, Some(project)) => self.save_project(&project),
+            (Some(path), None) => self.save_to(&path),
+            (Some(path), Some(project)) => {
+                if program.is_modified() || self.is_orphan() {
+                    self.save_to(&path);
+                }
                 if !self.document.program.is_modified() {
-                    self.carry_out(then);
+                    self.save_project(&project);
                 }
             }
-            // The question stays until the text has a file.
-            None => self.choose(Purpose::SaveProgram),
         }
     }
 
@@ -82,7 +100,9 @@ impl Session {
             self.mesh_chosen = false; // that was for the program before
         }
         self.document.program = program;
+        self.project = None;
         self.forget_history();
+        self.untouched();
         self.run_text();
         self.document.rule = None;
         self.document.params.clear();
@@ -152,6 +172,7 @@ impl Session {
         match read.and_then(|bytes| Project::from_json(&bytes, folder.as_deref())) {
             Ok(project) => {
                 self.open_document(project);
+                self.set_project(path);
                 self.remember(path);
             }
             Err(error) => self.say(Severity::Error, format!("{}: {error}", path.display())),
@@ -165,6 +186,7 @@ impl Session {
             bytes.and_then(|bytes| files::write(path, &bytes).map_err(|error| error.diagnostic.message.clone()));
         match written {
             Ok(()) => {
+                self.set_project(path);
                 self.remember(path);
                 self.say(Severity::Note, format!("saved {}", crate::document::file_name(path)));
             }
@@ -189,28 +211,7 @@ impl Session {
         });
     }
 
-    /// The picture as it is in the viewport.
-    pub(super) fn copy_image(&mut self) {
-        let (Some(frame), Some((size, style))) = (self.frame.clone(), self.view) else { return };
-        let (camera, clipboard) = (self.document.camera, Arc::clone(&self.clipboard));
-        self.in_background(move || {
-            let image = render_image(&frame.scene, &camera, &style, size).map_err(|error| error.to_string())?;
-            let (width, height) = (image.width() as usize, image.height() as usize);
-            let mut clipboard = clipboard.lock().unwrap_or_else(PoisonError::into_inner);
-            let failed = |error: arboard::Error| format!("the image cannot be copied: {error}");
-            let open = match clipboard.take() {
-                Some(open) => open,
-                None => arboard::Clipboard::new().map_err(failed)?,
-            };
-            clipboard
-                .insert(open)
-                .set_image(arboard::ImageData { width, height, bytes: image.into_raw().into() })
-                .map_err(failed)?;
-            Ok("image copied".to_owned())
-        });
-    }
-
-    fn in_background(&mut self, work: impl FnOnce() -> Result<String, String> + Send + 'static) {
+    pub(super) fn in_background(&mut self, work: impl FnOnce() -> Result<String, String> + Send + 'static) {
         let (sender, receiver) = mpsc::channel();
         let wake = Arc::clone(&self.wake);
         std::thread::spawn(move || {
@@ -255,11 +256,13 @@ impl Session {
             Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
             Purpose::OpenProject | Purpose::SaveProject => dialog.add_filter("vv projects", &[project::EXTENSION]),
             Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &Format::EXTENSIONS),
+            Purpose::SavePicture => dialog.add_filter("pictures", &["png"]),
         };
         dialog = match purpose {
             Purpose::SaveProgram => dialog.set_file_name(&program.name),
             Purpose::ExportMesh => dialog.set_file_name("mesh.obj"),
             Purpose::SaveProject => dialog.set_file_name(self.project_name()),
+            Purpose::SavePicture => dialog.set_file_name(self.picture_name()),
             Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => dialog,
         };
         let (sender, result) = mpsc::channel();
@@ -268,7 +271,9 @@ impl Session {
             let chosen = pollster::block_on(async {
                 match purpose {
                     Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => dialog.pick_file().await,
-                    Purpose::SaveProgram | Purpose::ExportMesh | Purpose::SaveProject => dialog.save_file().await,
+                    Purpose::SaveProgram | Purpose::ExportMesh | Purpose::SaveProject | Purpose::SavePicture => {
+                        dialog.save_file().await
+                    }
                 }
             });
             let _ = sender.send(chosen.map(|file| file.path().to_owned()));
@@ -298,6 +303,7 @@ impl Session {
                     Purpose::SaveProgram => self.document.program.name.clone(),
                     Purpose::ExportMesh => "mesh.obj".to_owned(),
                     Purpose::SaveProject => self.project_name(),
+                    Purpose::SavePicture => self.picture_name(),
                     Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => String::new(),
                 };
                 self.dialog = Some(Dialog::TypePath { purpose, path });
@@ -324,6 +330,7 @@ impl Session {
             Purpose::ExportMesh => self.export_to(with_extension(path, "obj")),
             Purpose::OpenProject => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_project(&path)),
             Purpose::SaveProject => self.save_project(&with_extension(path, project::EXTENSION)),
+            Purpose::SavePicture => self.picture_to(with_extension(path, "png")),
         }
     }
 

@@ -7,6 +7,8 @@ use std::time::{Duration, Instant};
 use vv::diagnostic::Severity;
 
 use super::{Dialog, Session};
+use crate::document::Document;
+use crate::preferences::{Preferences, Start};
 use crate::project::Project;
 use crate::store::{Settings, Store};
 
@@ -17,19 +19,100 @@ const PAUSE: Duration = Duration::from_millis(500);
 #[derive(Default)]
 pub(super) struct Keeping {
     settings: Option<Settings>,
-    text: Option<Arc<str>>,
+    /// What another version of vv has set.
+    others: serde_json::Map<String, serde_json::Value>,
+    document: Option<Document>,
     since: Option<Instant>,
+    /// Whether the user has changed anything since it was opened or saved.
+    touched: bool,
+}
+
+/// A project that is open.
+pub(super) struct OpenProject {
+    path: PathBuf,
+    /// As it is in its file.
+    saved: Document,
 }
 
 impl Session {
     pub(super) fn remember_with(&mut self, store: Store) {
-        let Settings { theme, reload, panels, speed, recent, navigation } = store.settings();
+        let Settings { theme, reload, panels, speed, recent, navigation, preferences, others } = store.settings();
         self.navigation = navigation;
         (self.theme, self.reload, self.panels, self.speed, self.recent) = (theme, reload, panels, speed, recent);
+        self.keeping.others = others;
+        self.prefer(preferences);
         self.orphan = store.orphan();
         self.dialog = self.orphan.as_ref().map(|orphan| Dialog::Recover { name: orphan.project.name.clone() });
         self.keeping.settings = Some(self.settings());
         self.store = Some(store);
+    }
+
+    /// What the window opens with where no file is given: as the user likes it, unless there is something to bring back.
+    pub(super) fn begin(&mut self) {
+        let Some(store) = self.store.as_ref().filter(|_| self.dialog.is_none()) else { return };
+        match self.preferences.start {
+            Start::Gallery => self.dialog = Some(Dialog::gallery()),
+            Start::Surface => {}
+            Start::LastSession => {
+                if let Some(project) = store.last_session() {
+                    self.open_document(project);
+                }
+            }
+        }
+    }
+
+    /// Takes notice of what a command has changed.
+    pub(super) fn touch(&mut self, before: &Document) {
+        let now = &self.document;
+        // Fitting moves the eye, too; only who turns it has looked for a view.
+        let turned = before.camera.world_from_view != now.camera.world_from_view || self.flight.is_some();
+        self.keeping.touched |= turned || !same_work(before, now) || before.generation != now.generation;
+    }
+
+    /// The window closes: there is nothing to bring back, but to begin with next time.
+    pub(super) fn end(&mut self) {
+        self.wants_quit = true;
+        self.keeping.document = None;
+        if let Some(store) = &self.store {
+            store.keep(None);
+            store.keep_last(Project::of(&self.document));
+        }
+    }
+
+    /// It is as it was opened or saved.
+    pub(super) fn untouched(&mut self) {
+        self.keeping.touched = false;
+    }
+
+    /// The file of the project that is open.
+    #[must_use]
+    pub fn project_path(&self) -> Option<&Path> {
+        self.project.as_ref().map(|project| project.path.as_path())
+    }
+
+    /// Whether something would be lost if the window were closed: text that is in no file, or what the project that is
+    /// open does not hold. Where the eye is and which generation is shown is nobody's work.
+    #[must_use]
+    pub fn is_unsaved(&self) -> bool {
+        let program = &self.document.program;
+        match &self.project {
+            Some(project) => {
+                !same_work(&project.saved, &self.document) || program.path.is_some() && program.is_modified()
+            }
+            None => program.is_modified(),
+        }
+    }
+
+    /// The project of this file holds the document now.
+    pub(super) fn set_project(&mut self, path: &Path) {
+        self.project = Some(OpenProject { path: path.to_owned(), saved: self.document.clone() });
+        self.untouched();
+    }
+
+    /// From now on things are as the user likes them.
+    pub(super) fn prefer(&mut self, preferences: Preferences) {
+        self.preferences = preferences.sensible();
+        self.worker.keep_within((self.preferences.memory << 20).min(self.most_memory));
     }
 
     /// Files that were open, the last one first.
@@ -52,6 +135,8 @@ impl Session {
             speed: self.speed,
             recent: self.recent.clone(),
             navigation: self.navigation,
+            preferences: self.preferences,
+            others: self.keeping.others.clone(),
         }
     }
 
@@ -64,26 +149,27 @@ impl Session {
             store.keep_settings(&settings);
             self.keeping.settings = Some(settings);
         }
-        if let Some(trouble) = store.trouble() {
+        let trouble = store.trouble();
+        if let Some(trouble) = trouble {
             self.say(Severity::Error, format!("what is unsaved cannot be kept: {trouble}"));
         }
-        let program = &self.document.program;
-        let unsaved = (program.is_modified() && !self.wants_quit).then(|| Arc::clone(&program.text));
-        if unsaved == self.keeping.text {
+        let worth = !self.wants_quit && (self.keeping.touched || self.is_unsaved());
+        let kept = self.keeping.document.as_ref();
+        if worth && kept == Some(&self.document) || !worth && kept.is_none() {
             self.keeping.since = None;
             return None;
         }
         let now = Instant::now();
         let due = *self.keeping.since.get_or_insert(now + PAUSE);
         let is_run = self.due.is_some_and(|due| due <= now);
-        if due > now && !is_run && unsaved.is_some() {
+        if due > now && !is_run && worth {
             return Some(due);
         }
-        let project = unsaved.is_some().then(|| Project::of(&self.document));
+        let project = worth.then(|| Project::of(&self.document));
         if let Some(store) = &self.store {
             store.keep(project);
         }
-        self.keeping.text = unsaved;
+        self.keeping.document = worth.then(|| self.document.clone());
         self.keeping.since = None;
         None
     }
@@ -111,4 +197,10 @@ impl Session {
         self.watch_files();
         self.ask_now();
     }
+}
+
+/// Whether two documents hold the same work.
+fn same_work(a: &Document, b: &Document) -> bool {
+    (&a.program.path, &a.program.text, a.style) == (&b.program.path, &b.program.text, b.style)
+        && (&a.mesh, &a.rule, &a.params, &a.param_sets) == (&b.mesh, &b.rule, &b.params, &b.param_sets)
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::panic::AssertUnwindSafe;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, PoisonError};
 
@@ -28,8 +29,6 @@ pub(super) struct Bench {
     reports: Sender<Report>,
     wake: Arc<dyn Fn() + Send + Sync>,
     limits: Limits,
-    /// Bytes that kept generations may use.
-    memory: usize,
     compiled: Option<Compiled>,
     input: Option<Input>,
     history: Option<History>,
@@ -60,10 +59,9 @@ impl Bench {
         reports: Sender<Report>,
         wake: Arc<dyn Fn() + Send + Sync>,
         limits: Limits,
-        memory: usize,
     ) -> Self {
         let (compiled, input, history, shown_mesh) = (None, None, None, None);
-        Self { shared, reports, wake, limits, memory, compiled, input, history, shown_mesh }
+        Self { shared, reports, wake, limits, compiled, input, history, shown_mesh }
     }
 
     /// Serves one request after the other until the worker is dropped.
@@ -295,12 +293,12 @@ impl Bench {
             let kept = Kept { generation: result.map_err(failed)?, frame: None };
             history.lineage.add(generation, &kept.generation.survivors);
             history.generations.insert(generation, kept);
-            history.evict(self.memory, generation);
+            history.evict(self.shared.memory.load(Ordering::Relaxed), generation);
             self.tell_reached(history);
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
         let frame = history.frame(request, stop).map_err(stopped)?;
-        history.evict(self.memory, request.generation);
+        history.evict(self.shared.memory.load(Ordering::Relaxed), request.generation);
         Ok(frame)
     }
 }

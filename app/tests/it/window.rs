@@ -1,6 +1,7 @@
 //! The window, driven as a user drives it: by names, keys and the pointer.
 
 mod editor;
+mod gallery;
 mod inspecting;
 mod keeping;
 mod palette;

@@ -2,9 +2,6 @@
 
 use std::ops::Range;
 
-/// Two spaces for each level.
-pub const INDENT: &str = "  ";
-
 /// A text with what is selected in it; an empty range is the cursor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Change {
@@ -43,13 +40,13 @@ pub fn toggle_comment(text: &str, selection: &Range<usize>) -> Change {
     })
 }
 
-/// Moves the lines that are selected a level in, or out.
-pub fn indent(text: &str, selection: &Range<usize>, inwards: bool) -> Change {
+/// Moves the lines that are selected a level of `width` spaces in, or out.
+pub fn indent(text: &str, selection: &Range<usize>, width: usize, inwards: bool) -> Change {
     change_lines(text, selection, lines(text, selection), |line| {
         if inwards {
-            return if line.is_empty() { String::new() } else { format!("{INDENT}{line}") };
+            return if line.is_empty() { String::new() } else { format!("{}{line}", " ".repeat(width)) };
         }
-        let spaces = line.bytes().take(INDENT.len()).take_while(|b| *b == b' ').count();
+        let spaces = line.bytes().take(width).take_while(|b| *b == b' ').count();
         let one_tab = usize::from(line.starts_with('\t'));
         line[spaces.max(one_tab)..].to_owned()
     })
@@ -141,7 +138,7 @@ mod tests {
     #[test]
     fn lines_move_in_and_out() {
         let (inwards, out) =
-            (|t: &str, s: &Range<usize>| indent(t, s, true), |t: &str, s: &Range<usize>| indent(t, s, false));
+            (|t: &str, s: &Range<usize>| indent(t, s, 2, true), |t: &str, s: &Range<usize>| indent(t, s, 2, false));
         check(inwards, "[a;\n\n b;]", "[  a;\n\n   b;]");
         check(out, "[   a;\n b;\n\tc;\nd;]", "[ a;\nb;\nc;\nd;]");
         check(out, "  a|b", "a|b");

@@ -4,34 +4,35 @@ use std::ops::Range;
 
 use eframe::egui::{Event, Key, Modifiers, Ui};
 
-use super::change::{Change, INDENT, indent};
+use super::change::{Change, indent};
 
-/// Tab inserts spaces, or moves the lines that are selected; Enter keeps the indentation, deepens it after `{`, and
+/// Tab inserts spaces up to a multiple of `width`, or moves the lines that are selected; Enter keeps the indentation, deepens it after `{`, and
 /// makes room between braces; `}` on an empty line takes it back. Returns what cannot be said by other keys.
-pub fn take(ui: &Ui, text: &str, selection: &Range<usize>) -> Option<Change> {
+pub fn take(ui: &Ui, text: &str, selection: &Range<usize>, width: usize) -> Option<Change> {
+    let width = width.max(1);
     let before = text.get(..selection.start).unwrap_or_default();
     let line = before.rsplit('\n').next().unwrap_or_default();
     let behind = text.get(selection.end..).unwrap_or_default();
     let several = text.get(selection.clone()).is_some_and(|selected| selected.contains('\n'));
     ui.input_mut(|input| {
         if input.consume_key(Modifiers::SHIFT, Key::Tab) {
-            return Some(indent(text, selection, false));
+            return Some(indent(text, selection, width, false));
         }
         if several && input.consume_key(Modifiers::NONE, Key::Tab) {
-            return Some(indent(text, selection, true));
+            return Some(indent(text, selection, width, true));
         }
         let mut events = Vec::with_capacity(input.events.len());
         for event in input.events.drain(..) {
             match event {
                 Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.is_none() => {
                     let column = line.chars().count();
-                    events.push(Event::Text(INDENT[column % INDENT.len()..].to_owned()));
+                    events.push(Event::Text(" ".repeat(width - column % width)));
                 }
                 Event::Key { key: Key::Enter, pressed: true, modifiers, .. } if modifiers.is_none() => {
-                    new_line(line, behind, &mut events);
+                    new_line(line, behind, width, &mut events);
                 }
-                Event::Text(ref typed) if typed == "}" && line.len() >= INDENT.len() && line.trim().is_empty() => {
-                    for _ in 0..INDENT.len() {
+                Event::Text(ref typed) if typed == "}" && line.len() >= width && line.trim().is_empty() => {
+                    for _ in 0..width {
                         events.push(pressed(Key::Backspace));
                     }
                     events.push(event);
@@ -44,10 +45,10 @@ pub fn take(ui: &Ui, text: &str, selection: &Range<usize>) -> Option<Change> {
     })
 }
 
-fn new_line(line: &str, behind: &str, events: &mut Vec<Event>) {
+fn new_line(line: &str, behind: &str, width: usize, events: &mut Vec<Event>) {
     let indentation: String = line.chars().take_while(|c| *c == ' ' || *c == '\t').collect();
     let opens = line.trim_end().ends_with('{');
-    let deeper = if opens { INDENT } else { "" };
+    let deeper = " ".repeat(if opens { width } else { 0 });
     events.push(Event::Text(format!("\n{indentation}{deeper}")));
     if opens && behind.trim_start_matches(' ').starts_with('}') {
         events.push(Event::Text(format!("\n{indentation}")));

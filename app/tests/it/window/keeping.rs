@@ -14,6 +14,10 @@ fn open_with(folder: &Path) -> Harness<'static, App> {
         .wgpu()
         .build_eframe(|cc| App::with_store(cc, None, None, Some(store)).unwrap());
     window.step();
+    if matches!(window.state().session().dialog, Some(Dialog::Gallery { .. })) {
+        window.state_mut().apply(Command::CloseDialog);
+        window.step();
+    }
     window
 }
 
@@ -119,4 +123,66 @@ fn a_project_holds_program_mesh_parameters_and_view() {
     assert_eq!((&opened.mesh, &opened.params, opened.generation), (&document.mesh, &document.params, 1));
     assert_eq!((opened.style, opened.camera), (document.style, document.camera));
     assert_eq!(session.frame().unwrap().mesh.positions()[0].length(), 0.25);
+}
+
+#[test]
+fn after_a_crash_mesh_parameters_generation_and_view_are_brought_back_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open_with(folder.path());
+    settle(&mut window);
+    assert!(recoveries(folder.path()).is_empty(), "nothing was done yet");
+    window.state_mut().apply(Command::OpenExample("mountain.vv"));
+    window.state_mut().apply(Command::GoTo(1));
+    window.state_mut().apply(Command::SetParam("height".to_owned(), vv::mesh::Value::Double(0.25)));
+    window.state_mut().apply(Command::Smooth);
+    settle(&mut window);
+    let middle = window.get_by_label("Viewport").rect().center();
+    window.drag_at(middle);
+    window.step();
+    window.hover_at(middle + egui::vec2(60.0, 20.0));
+    window.step();
+    window.drop_at(middle + egui::vec2(60.0, 20.0));
+    settle(&mut window);
+    let document = window.state().session().document.clone();
+    let orphan = folder.path().join("recovery/1-1.json");
+    wait_for("the view is kept", || {
+        window.step();
+        let Some(kept) = recoveries(folder.path()).into_iter().next() else { return false };
+        std::fs::copy(kept, &orphan).unwrap();
+        let project = app::project::Project::from_json(&std::fs::read(&orphan).unwrap(), None).unwrap();
+        std::fs::remove_file(&orphan).unwrap();
+        project.into_document() == document
+    });
+    // What the user goes back to is nothing to bring back once it is closed.
+    window.state_mut().apply(Command::Quit);
+    window.step();
+    drop(window);
+    assert!(recoveries(folder.path()).is_empty());
+}
+
+#[test]
+fn what_a_project_does_not_hold_yet_is_marked_and_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("all.vvp");
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    window.state_mut().session_mut().chosen(Purpose::SaveProject, path.clone());
+    let is_unsaved = |window: &Harness<'static, App>| window.state().session().is_unsaved();
+    assert!(!is_unsaved(&window), "the text is in the project");
+    window.state_mut().apply(Command::Step);
+    assert!(!is_unsaved(&window), "to look is no work");
+    window.state_mut().apply(Command::SetParam("w".to_owned(), vv::mesh::Value::Double(0.25)));
+    assert!(is_unsaved(&window));
+    window.state_mut().apply(Command::Undo);
+    assert!(!is_unsaved(&window));
+    window.state_mut().apply(Command::Smooth);
+    window.state_mut().apply(Command::NewProgram);
+    window.run_steps(6);
+    window.get_by_label_contains("Save changes to all.vvp?");
+    window.get_by_role_and_label(Role::Button, "Save").click();
+    window.run_steps(2);
+    assert_eq!(window.state().session().document.program.name, "untitled.vv");
+    window.state_mut().apply(Command::Open(path));
+    settle(&mut window);
+    assert!(window.state().session().document.style.smooth && !is_unsaved(&window));
 }

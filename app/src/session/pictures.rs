@@ -1,0 +1,97 @@
+//! Pictures out of the window, and programs that are shown as in the gallery.
+
+use std::io::Cursor;
+use std::path::PathBuf;
+use std::sync::{Arc, PoisonError};
+
+use super::Session;
+use crate::document::ProgramText;
+use crate::preferences::{Background, PictureOptions};
+use crate::render::{self, Size, render_image};
+use crate::scene::{Style, Theme};
+use crate::{files, gallery, library};
+
+impl Session {
+    /// A program that ships with vv as the gallery shows it.
+    pub(super) fn show_exhibit(&mut self, name: &str, keep_mesh: bool) {
+        let (Some(exhibit), Some(program)) = (gallery::exhibit(name), library::program(name)) else { return };
+        self.set_program(ProgramText::new(program.name, program.text));
+        self.document.rule = exhibit.rule.map(str::to_owned);
+        let own = matches!(self.document.mesh, crate::document::MeshSource::File(_));
+        self.playing = None;
+        if keep_mesh && own {
+            self.document.generation = 0; // who knows how large it is
+            return;
+        }
+        self.document.mesh = exhibit.mesh();
+        self.document.generation = exhibit.generation;
+        self.mesh_chosen = false;
+        self.mesh_revision += 1;
+        self.watch_files();
+    }
+
+    /// Size of a picture with these options; that of the viewport, if it tells one.
+    #[must_use]
+    pub fn picture_size(&self, options: &PictureOptions) -> Size {
+        match self.view {
+            Some((size, _)) if options.as_seen => size,
+            // Lines as wide in proportion as in the window.
+            Some((size, _)) => {
+                let scale = size.scale * options.height as f32 / size.height.max(1) as f32;
+                Size { width: options.width, height: options.height, scale: scale.max(0.5) }
+            }
+            None => Size::new(options.width, options.height),
+        }
+    }
+
+    pub(super) fn picture_name(&self) -> String {
+        let name = &self.document.program.name;
+        format!("{}.png", name.strip_suffix(".vv").unwrap_or(name))
+    }
+
+    pub(super) fn picture_to(&mut self, path: PathBuf) {
+        let Some(frame) = self.frame.clone() else { return };
+        let options = self.preferences.picture;
+        let (size, camera) = (self.picture_size(&options), self.document.camera);
+        let seen = self.view.map_or(self.document.style, |(_, style)| style);
+        let style = match options.background {
+            Background::AsSeen => seen,
+            Background::White => Style { transparent: true, theme: Theme::Light, ..seen },
+            Background::Transparent => Style { transparent: true, ..seen },
+        };
+        let name = crate::document::file_name(&path);
+        self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
+        self.in_background(move || {
+            let failed = |problem: String| format!("{}: {problem}", path.display());
+            let mut image = render_image(&frame.scene, &camera, &style, size).map_err(|e| failed(e.to_string()))?;
+            if options.background == Background::White {
+                render::put_on_white(&mut image);
+            }
+            let mut bytes = Cursor::new(Vec::new());
+            image.write_to(&mut bytes, image::ImageFormat::Png).map_err(|e| failed(e.to_string()))?;
+            files::write(&path, &bytes.into_inner()).map_err(|e| failed(e.diagnostic.message.clone()))?;
+            Ok(format!("saved {name}, {} × {} pixels", size.width, size.height))
+        });
+    }
+
+    /// The picture as it is in the viewport.
+    pub(super) fn copy_image(&mut self) {
+        let (Some(frame), Some((size, style))) = (self.frame.clone(), self.view) else { return };
+        let (camera, clipboard) = (self.document.camera, Arc::clone(&self.clipboard));
+        self.in_background(move || {
+            let image = render_image(&frame.scene, &camera, &style, size).map_err(|error| error.to_string())?;
+            let (width, height) = (image.width() as usize, image.height() as usize);
+            let mut clipboard = clipboard.lock().unwrap_or_else(PoisonError::into_inner);
+            let failed = |error: arboard::Error| format!("the image cannot be copied: {error}");
+            let open = match clipboard.take() {
+                Some(open) => open,
+                None => arboard::Clipboard::new().map_err(failed)?,
+            };
+            clipboard
+                .insert(open)
+                .set_image(arboard::ImageData { width, height, bytes: image.into_raw().into() })
+                .map_err(failed)?;
+            Ok("image copied".to_owned())
+        });
+    }
+}
