@@ -2,6 +2,7 @@
 //
 // The ends a, b are projected after the part nearer than the near plane was cut off: for a.w < near,
 //   a := mix(a, b, (near - a.w) / (b.w - a.w))
+// and likewise after the part beyond the cut was cut off.
 // The opacity of a pixel is that part of it which the line covers, about
 //   clamp(width / 2 + 1/2 - d, 0, 1)          d its distance from the segment in pixels
 // Lines are drawn as if nearer by k pixels' worth of depth, w := w (1 - k * pixel) with k more than the width, so that
@@ -47,8 +48,17 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     out.position = vec4(2.0, 2.0, 0.5, 1.0); // outside: not drawn
     let edge = index / 6u;
     let ends = edges[edge];
-    let a = corner_position(ends.x);
-    let b = corner_position(ends.y);
+    var a = corner_position(ends.x);
+    var b = corner_position(ends.y);
+    let over = vec2(beyond_cut(a), beyond_cut(b));
+    if over.x > 0.0 && over.y > 0.0 {
+        return out;
+    }
+    if over.x > 0.0 {
+        a = mix(a, b, over.x / (over.x - over.y));
+    } else if over.y > 0.0 {
+        b = mix(b, a, over.y / (over.y - over.x));
+    }
     var p = frame.clip_from_scene * vec4(a, 1.0);
     var q = frame.clip_from_scene * vec4(b, 1.0);
     let near = frame.near * 1.0001;

@@ -21,6 +21,19 @@ struct Frame {
     smooth_shading: u32,
     encode: u32, // the target does not turn light into sRGB
     parallel: f32, // depth per length where lines of sight are parallel, else 0
+    surface: u32, // how the surface shows its quality, see surface.wgsl
+    tint: u32, // how the words of corners are read, see tint.wgsl
+    padding: u32,
+    window: vec2<f32>, // of the numbers of corners, see tint.wgsl
+    // What is cut away: dot(clip.xyz, p) > clip.w in scene coordinates.
+    clip: vec4<f32>,
+    cut: vec4<f32>, // colour of the line along the cut
+    // The plane of the grid: its height, the distance of its lines and how far it reaches, in scene coordinates; 0.
+    ground: vec4<f32>,
+    // Scene coordinates x, z of the world's axes; and of a point where thick lines cross.
+    ground_lines: vec4<f32>,
+    grid_line: vec4<f32>,
+    scale_colors: array<vec4<f32>, 32>,
 }
 
 // How the lines and points of one mesh look.
@@ -58,6 +71,11 @@ fn output(color: vec4<f32>) -> vec4<f32> {
     let c = clamp(color.rgb, vec3(0.0), vec3(1.0));
     let curve = 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055;
     return vec4(select(curve, 12.92 * c, c <= vec3(0.0031308)), color.a);
+}
+
+// How far a point lies on the side that is cut away; up to 0 it is seen.
+fn beyond_cut(p: vec3<f32>) -> f32 {
+    return dot(frame.clip.xyz, p) - frame.clip.w;
 }
 
 // From the whole picture to the tile that is drawn now.

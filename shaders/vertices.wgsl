@@ -3,7 +3,7 @@
 // The opacity of a pixel is that part of it which the disc covers, about
 //   clamp(size / 2 + 1/2 - d, 0, 1)           d its distance from the centre in pixels
 // Discs are drawn as if nearer by their radius' worth of depth, so that the surface around a vertex does not cut them.
-// On a dense mesh they shrink to 2/5 of the mean distance between vertices as it is seen, as with edges, and fade.
+// Those beyond the cut are not drawn. On a dense mesh they shrink to 2/5 of the mean distance between vertices as it is seen, as with edges, and fade.
 
 @group(0) @binding(1) var<uniform> layer: Layer;
 @group(1) @binding(0) var<storage, read> corners: array<u32>; // 5 words each: position, normal, normal of a face
@@ -25,7 +25,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     let i = index / 6u;
     let position = bitcast<vec3<f32>>(vec3(corners[i * 5u], corners[i * 5u + 1u], corners[i * 5u + 2u]));
     let p = frame.clip_from_scene * vec4(position, 1.0);
-    if p.w < frame.near {
+    if p.w < frame.near || beyond_cut(position) > 1e-6 {
         return out;
     }
     var size = layer.point_size;

@@ -16,10 +16,11 @@ use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 use vv::diagnostic::Hint;
 use vv::mesh::Value;
 
+use crate::annotate::{Annotations, Quantity};
 use crate::camera::Camera;
 use crate::document::MeshSource;
 use crate::preferences::Preferences;
-use crate::scene::Style;
+use crate::scene::{Style, Surface};
 use crate::session::{Purpose, Session};
 
 pub use inspecting::Inspect;
@@ -138,6 +139,18 @@ pub enum Command {
     Smooth,
     /// Control mesh on and off.
     Control,
+    /// What is shown on it.
+    SetAnnotations(Annotations),
+    /// Colours it, with the range found by itself.
+    ColorBy(Quantity),
+    /// How the surface shows its quality.
+    ShowBy(Surface),
+    /// The cut on and off.
+    Cut,
+    /// The grid on and off.
+    Grid,
+    /// The axes on and off.
+    Axes,
     /// From where it is seen.
     SetCamera(Camera),
     /// Something to do with the camera.
@@ -330,6 +343,17 @@ impl Command {
             Self::Vertices => ("Vertices", "draw the vertices", const { &[key(Key::V)] }),
             Self::Smooth => ("Smooth", "shade as if the surface were smooth", const { &[key(Key::N)] }),
             Self::Control => ("Control mesh", "superimpose the mesh of generation 0", const { &[key(Key::C)] }),
+            Self::Cut => ("Cut open", "cut away what lies on one side of a plane", const { &[key(Key::X)] }),
+            Self::Grid => ("Grid", "draw a grid on the ground, with the axes", const { &[key(Key::G)] }),
+            Self::Axes => ("Axes", "show the directions of the axes in a corner", const { &[key(Key::A)] }),
+            Self::ShowBy(Surface::Lights) => ("Lights", "see the surface by its light alone", &[]),
+            Self::ShowBy(Surface::ReflectionLines) => {
+                ("Reflection lines", "see how even the surface is by the mirror images of long lamps", &[])
+            }
+            Self::ShowBy(Surface::Isophotes) => {
+                ("Isophotes", "see how even the surface is by lines of equal light", &[])
+            }
+            Self::ColorBy(quantity) => return describe_color(quantity),
             Self::Fit => ("Fit view", "bring all of the mesh in sight", const { &[key(Key::F)] }),
             // Ctrl+C arrives as a wish to copy, not as a key.
             Self::CopyImage => ("Copy image", "copy the picture to the clipboard", const { &[ctrl(Key::C)] }),
@@ -391,6 +415,7 @@ impl Command {
             | Self::UseParams(_)
             | Self::ForgetParams(_)
             | Self::SetStyle(_)
+            | Self::SetAnnotations(_)
             | Self::SetCamera(_) => ("", "", &[]),
         };
         Description { label, tooltip, shortcuts }
@@ -428,6 +453,11 @@ impl Command {
             Self::Smooth => style.smooth,
             Self::Control => style.control,
             Self::View(action) => return action.is_on(session),
+            Self::Cut => style.cut.on,
+            Self::Grid => style.grid,
+            Self::Axes => style.axes,
+            Self::ShowBy(surface) => style.surface == *surface,
+            Self::ColorBy(quantity) => session.document.annotations.color_by == *quantity,
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,
@@ -438,6 +468,23 @@ impl Command {
             _ => return None,
         })
     }
+}
+
+fn describe_color(quantity: &Quantity) -> Description {
+    let (label, tooltip) = match quantity {
+        Quantity::Plain => ("No colours", "one colour for the whole surface, or its own"),
+        Quantity::Valence => ("Colour by valence", "show where vertices have more or fewer neighbours than usual"),
+        Quantity::Degree => ("Colour by corners", "show which faces have more or fewer corners than most"),
+        Quantity::Gauss => ("Colour by Gaussian curvature", "show where the surface is dome and where saddle"),
+        Quantity::Mean => ("Colour by mean curvature", "show where the surface bulges out and where in"),
+        Quantity::Birth => ("Colour by generation of birth", "show which generation made each vertex"),
+        Quantity::Change => ("Colour by change", "show what was born and what moved in the last step"),
+        Quantity::Coordinate(0) => ("Colour by x", "show the first coordinate"),
+        Quantity::Coordinate(1) => ("Colour by y", "show the second coordinate, the height"),
+        Quantity::Coordinate(_) => ("Colour by z", "show the third coordinate"),
+        Quantity::Property(_) | Quantity::Color(_) => ("", ""),
+    };
+    Description { label, tooltip, shortcuts: &[] }
 }
 
 impl TextAction {

@@ -6,6 +6,7 @@ mod diff;
 mod fmt;
 mod info;
 mod input;
+mod look;
 mod lsp;
 mod open;
 mod output;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use vv::mesh::Value;
 
+use crate::annotate::Annotations;
 use crate::camera::Camera;
 use crate::scene::Style;
 
@@ -33,6 +34,8 @@ pub struct Document {
     pub generation: u64,
     /// How it is drawn.
     pub style: Style,
+    /// What is shown on it.
+    pub annotations: Annotations,
     /// From where it is seen.
     pub camera: Camera,
 }

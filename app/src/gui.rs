@@ -17,11 +17,14 @@
 mod cheat_sheet;
 mod clicks;
 mod dialogs;
+mod display;
 mod editor;
 mod findings;
 mod gallery;
+mod gizmo;
 mod inspector;
 mod keys;
+mod legend;
 mod marks;
 mod menu;
 mod messages;

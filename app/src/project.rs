@@ -10,6 +10,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 use vv::mesh::Value;
 
+use crate::annotate::Annotations;
 use crate::camera::Camera;
 use crate::document::{Document, MeshSource, ProgramText};
 use crate::files;
@@ -44,6 +45,8 @@ pub struct Project {
     generation: u64,
     #[serde(default)]
     style: Style,
+    #[serde(default)]
+    annotations: Annotations,
     camera: Camera,
 }
 
@@ -73,6 +76,7 @@ impl Project {
             views: document.views.clone(),
             generation: document.generation,
             style: document.style,
+            annotations: document.annotations.clone(),
             camera: document.camera,
         }
     }
@@ -99,6 +103,7 @@ impl Project {
             views: self.views,
             generation: self.generation,
             style: self.style,
+            annotations: self.annotations,
             camera: self.camera,
         }
     }
@@ -174,6 +179,7 @@ fn values(settings: BTreeMap<String, Setting>) -> BTreeMap<String, Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::annotate::Quantity;
     use crate::scene::Sphere;
 
     fn document() -> Document {
@@ -194,6 +200,7 @@ mod tests {
             views: [("side".to_owned(), Camera::standard(Sphere { center: DVec3::X, radius: 1.0 }, 1.0))].into(),
             generation: 4,
             style: Style { smooth: true, ..Style::default() },
+            annotations: Annotations { color_by: Quantity::Color("degree".to_owned()), range: Some([-0.5, 2.0]) },
             camera: Camera::standard(Sphere { center: DVec3::ONE, radius: 2.0 }, 1.5),
         }
     }

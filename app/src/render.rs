@@ -7,8 +7,8 @@
 //!   draw       Renderer + Target + Uploaded + Camera + Style → colour in the target
 //! ```
 //!
-//! The colour target is sRGB, so that light is added up linearly. Passes, in order: background, faces, edges, vertices,
-//! control mesh; lines and points blend over the faces, tested against their depth but writing none.
+//! The colour target is sRGB, so that light is added up linearly. Passes, in order: background, faces, grid, edges,
+//! vertices, control mesh; lines and points blend over the faces, tested against their depth but writing none.
 
 mod frame;
 mod headless;
@@ -20,13 +20,14 @@ mod upload;
 
 use std::fmt;
 
+use crate::annotate::Tint;
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 use crate::trace;
 
-pub use headless::{Headless, put_on_white, render_image};
+pub use headless::{Dressing, Headless, put_on_white, render_image};
 pub use target::Target;
-pub use upload::Uploaded;
+pub use upload::{Uploaded, UploadedTint};
 
 use frame::{Tile, layer_draws};
 use pipelines::{Pipelines, color_format};
@@ -114,6 +115,13 @@ pub struct Renderer {
     opengl: bool,
 }
 
+/// What is drawn with a scene that is not part of it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Dress<'a> {
+    /// The colours of its faces, made for this scene.
+    pub tint: Option<(&'a Tint, &'a UploadedTint)>,
+}
+
 /// How to ask an adapter for a device that takes meshes and pictures as large as it can.
 #[must_use]
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
@@ -163,8 +171,23 @@ impl Renderer {
     ///
     /// # Errors
     /// If the driver refuses it or the device was lost.
-    pub fn draw(&self, target: &Target, scene: &Uploaded, camera: &Camera, style: &Style) -> Result<(), RenderError> {
-        self.draw_tile(target, scene, camera, style, Tile::whole(target.size))
+    pub fn draw(
+        &self,
+        target: &Target,
+        scene: &Uploaded,
+        dress: Dress<'_>,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<(), RenderError> {
+        self.draw_tile(target, scene, dress, camera, style, Tile::whole(target.size))
+    }
+
+    /// Brings the colours of a scene to the GPU.
+    ///
+    /// # Errors
+    /// If the driver is out of memory.
+    pub fn upload_tint(&self, tint: &Tint) -> Result<UploadedTint, RenderError> {
+        guarded(&self.device, || UploadedTint::new(&self.device, &self.queue, tint))
     }
 
     /// Draws the part of a larger picture that lies in `tile`.
@@ -172,12 +195,13 @@ impl Renderer {
         &self,
         target: &Target,
         scene: &Uploaded,
+        dress: Dress<'_>,
         camera: &Camera,
         style: &Style,
         tile: Tile,
     ) -> Result<(), RenderError> {
         let _span = trace::span("drawing");
-        let frame = frame::frame(scene, camera, style, tile, self.opengl);
+        let frame = frame::frame(scene, camera, style, dress.tint.map(|(tint, _)| tint), tile, self.opengl);
         let layers = frame::layers(scene, style, tile.picture.scale);
         guarded(&self.device, || {
             target.write_uniforms(&self.queue, &frame, &layers);
@@ -193,15 +217,20 @@ impl Renderer {
                     && let Some(faces) = &scene.faces
                 {
                     let colors = faces.colors.as_ref().filter(|_| style.colors);
-                    let colored = colors.map(|_| &self.pipelines.colored_faces);
-                    pass.set_pipeline(colored.unwrap_or(&self.pipelines.faces));
+                    let words = dress.tint.map(|(_, uploaded)| &uploaded.words).or(colors);
+                    pass.set_pipeline(self.pipelines.faces(words.is_some(), style.cut.on));
                     target.bind(&mut pass, 0);
                     pass.set_vertex_buffer(0, faces.corners.slice(..));
-                    if let Some(colors) = colors {
-                        pass.set_vertex_buffer(1, colors.slice(..));
+                    if let Some(words) = words {
+                        pass.set_vertex_buffer(1, words.slice(..));
                     }
                     pass.set_index_buffer(faces.indices.slice(..), wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(0..faces.index_count, 0, 0..1);
+                }
+                if style.grid {
+                    pass.set_pipeline(&self.pipelines.grid);
+                    target.bind(&mut pass, 0);
+                    pass.draw(0..6, 0..1);
                 }
                 for draw in layer_draws(scene, camera, style, tile.picture) {
                     let Some(part) = draw.part.of(scene) else { continue };

@@ -63,6 +63,80 @@ pub struct Style {
     pub edge_width: f32,
     /// Diameter of vertices.
     pub vertex_size: f32,
+    /// How the surface shows its quality.
+    pub surface: Surface,
+    /// Where the mesh is cut open.
+    pub cut: Cut,
+    /// Draw a grid on the ground, with the axes of the world.
+    pub grid: bool,
+    /// Show the directions of the axes in a corner of the window.
+    pub axes: bool,
+}
+
+/// How a surface shows its quality.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// By its light alone.
+    #[default]
+    Lights,
+    /// The mirror images of long lamps.
+    ReflectionLines,
+    /// Lines of equal light.
+    Isophotes,
+}
+
+/// A plane that cuts away what lies on one side of it.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Cut {
+    /// Whether it does.
+    pub on: bool,
+    /// What it is perpendicular to.
+    pub across: Axis,
+    /// Where it is: 0 at the middle of the mesh, ±1 at its ends.
+    pub position: f32,
+    /// Cuts the other side away.
+    pub flipped: bool,
+}
+
+impl Default for Cut {
+    fn default() -> Self {
+        Self { on: false, across: Axis::X, position: 0.0, flipped: false }
+    }
+}
+
+/// A direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// Of the world.
+    #[default]
+    X,
+    /// Of the world, upwards.
+    Y,
+    /// Of the world.
+    Z,
+    /// Towards the eye.
+    View,
+}
+
+impl Cut {
+    /// What is cut away of the world: the points p with n · p > d; `None` if nothing is.
+    #[must_use]
+    pub fn plane(&self, bounds: Sphere, camera: &Camera) -> Option<(DVec3, f64)> {
+        if !self.on {
+            return None;
+        }
+        let normal = match self.across {
+            Axis::X => DVec3::X,
+            Axis::Y => DVec3::Y,
+            Axis::Z => DVec3::Z,
+            Axis::View => camera.world_from_view * DVec3::Z,
+        };
+        let place = normal.dot(bounds.center) + f64::from(self.position) * bounds.radius;
+        Some(if self.flipped { (-normal, -place) } else { (normal, place) })
+    }
 }
 
 impl Default for Style {
@@ -78,6 +152,10 @@ impl Default for Style {
             transparent: false,
             edge_width: 1.2,
             vertex_size: 6.0,
+            surface: Surface::Lights,
+            cut: Cut::default(),
+            grid: false,
+            axes: false,
         }
     }
 }
@@ -103,6 +181,8 @@ pub struct Scene {
     pub mesh: Part,
     /// The control mesh, without triangles.
     pub control: Part,
+    /// World height of the lowest point of the mesh.
+    pub ground: f64,
     bounds: Sphere,
     bounds_with_control: Sphere,
     /// What is where: of the mesh, and of the control mesh.
@@ -117,6 +197,7 @@ impl Default for Scene {
             unit: 1.0,
             mesh: Part::default(),
             control: Part::default(),
+            ground: 0.0,
             bounds,
             bounds_with_control: bounds,
             index: OnceLock::new(),
@@ -155,6 +236,7 @@ impl Scene {
                 Some((mesh, faces)) => Part::new(mesh, faces, &to_scene, part::Fill::Nothing, stop)?,
                 None => Part::default(),
             },
+            ground: if own.low.y.is_finite() { own.low.y } else { 0.0 },
             bounds,
             bounds_with_control,
             index: OnceLock::new(),

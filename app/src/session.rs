@@ -3,6 +3,7 @@
 //! [`Session::apply`] carries commands out, [`Session::poll`] takes in what has happened meanwhile. Neither waits for
 //! anything; panels read the rest.
 
+mod coloring;
 mod files;
 mod generations;
 mod inspecting;
@@ -25,6 +26,7 @@ use vv::diagnostic::Severity;
 use vv::ir::Program;
 use vv::mesh::Value;
 
+use crate::annotate::Annotations;
 use crate::camera::Camera;
 use crate::command::{Command, Panel, Reload, TextAction, ThemeChoice};
 use crate::document::{Document, MeshSource, ProgramText};
@@ -243,6 +245,7 @@ pub struct Session {
     mesh_chosen: bool,
 
     history: undo::History,
+    finding: coloring::Finding,
     /// The text that is run, which may be older than the one in the editor.
     text_to_run: Arc<str>,
     /// When to ask for what is wanted, if it is not what was asked for last.
@@ -321,6 +324,7 @@ impl Session {
             included: BTreeSet::new(),
             mesh_chosen: false,
             history: undo::History::default(),
+            finding: coloring::Finding::default(),
             text_to_run: Arc::from(""),
             due: None,
             running: None,
@@ -491,6 +495,16 @@ impl Session {
             Command::Vertices => self.change_style(|s| s.vertices = !s.vertices),
             Command::Smooth => self.change_style(|s| s.smooth = !s.smooth),
             Command::Control => self.change_style(|s| s.control = !s.control),
+            Command::SetAnnotations(annotations) => self.document.annotations = annotations,
+            Command::ColorBy(quantity) => {
+                let is_new = self.document.annotations.color_by != quantity;
+                self.document.annotations.color_by = quantity;
+                self.document.annotations.range = self.document.annotations.range.filter(|_| !is_new);
+            }
+            Command::ShowBy(surface) => self.change_style(|s| s.surface = surface),
+            Command::Cut => self.change_style(|s| s.cut.on = !s.cut.on),
+            Command::Grid => self.change_style(|s| s.grid = !s.grid),
+            Command::Axes => self.change_style(|s| s.axes = !s.axes),
             Command::SetCamera(camera) => self.set_camera(camera),
             Command::View(action) => self.change_view(action),
             Command::Fit => (self.fit, self.asked_to_fit) = (true, true),
@@ -527,6 +541,7 @@ impl Session {
         let keep = self.keep();
         let motion = self.animate();
         self.ask();
+        self.color();
         if self.notice.as_ref().is_some_and(|(.., since)| since.elapsed() > NOTICE) {
             self.notice = None;
         }
@@ -542,6 +557,7 @@ impl Session {
     /// Begins what commands have asked for, which [`Session::poll`] would do when it is called next.
     pub fn start(&mut self) {
         self.ask();
+        self.color();
     }
 
     fn change_style(&mut self, change: impl FnOnce(&mut Style)) {
@@ -565,6 +581,7 @@ fn welcome(refined: bool) -> Document {
         views: BTreeMap::new(),
         generation: if refined { 2 } else { 0 },
         style: Style { control: true, ..Style::default() },
+        annotations: Annotations::default(),
         camera: Camera::standard(Sphere { center: DVec3::ZERO, radius: 1.0 }, 1.0), // fitted when there is something
     }
 }

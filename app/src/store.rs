@@ -291,6 +291,7 @@ mod tests {
             views: Default::default(),
             generation: 0,
             style: Style::default(),
+            annotations: crate::annotate::Annotations::default(),
             camera: Camera::standard(Sphere { center: glam::DVec3::ZERO, radius: 1.0 }, 1.0),
         })
     }

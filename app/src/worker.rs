@@ -29,6 +29,8 @@ use vv::mesh::{Mesh, Value};
 use vv::source::Sources;
 use vv::stop::{Stop, Stopped};
 
+use crate::annotate::cell::Cell;
+use crate::annotate::{Annotations, Subject};
 use crate::console::Console;
 use crate::document::MeshSource;
 use crate::inspect::findings::Findings;
@@ -142,8 +144,25 @@ pub struct Frame {
     pub lineage: Lineage,
     /// What is wrong with the mesh; known some time after the frame.
     pub findings: OnceLock<Findings>,
+    /// The colours found for it.
+    pub colors: Cell,
     /// Where the time went.
     pub timings: Timings,
+}
+
+impl Frame {
+    /// All that is known of its mesh.
+    #[must_use]
+    pub fn subject(&self) -> Subject<'_> {
+        Subject {
+            mesh: &self.mesh,
+            faces: &self.faces,
+            scene: &self.scene,
+            generation: self.request.generation,
+            before: self.before.as_ref(),
+            lineage: &self.lineage,
+        }
+    }
 }
 
 /// Seconds that a generation took.
@@ -200,6 +219,8 @@ struct Shared {
     reached: Mutex<BTreeMap<u64, Reached>>,
     /// Bytes that kept generations may use.
     memory: AtomicUsize,
+    /// What is to be shown on the frames to come.
+    annotations: Mutex<Annotations>,
 }
 
 #[derive(Default)]
@@ -228,6 +249,7 @@ impl Worker {
             console: Mutex::default(),
             reached: Mutex::default(),
             memory: AtomicUsize::new(memory),
+            annotations: Mutex::default(),
         });
         let (sender, reports) = mpsc::channel();
         let bench = Bench::new(Arc::clone(&shared), sender, Arc::new(wake), limits);
@@ -262,6 +284,11 @@ impl Worker {
     /// The generations that the last recipe has reached.
     pub fn reached(&self) -> MutexGuard<'_, BTreeMap<u64, Reached>> {
         lock(&self.shared.reached)
+    }
+
+    /// From now on frames come with the colours that are asked for.
+    pub fn annotate(&self, annotations: &Annotations) {
+        lock(&self.shared.annotations).clone_from(annotations);
     }
 
     /// What the generations have printed.

@@ -1,8 +1,10 @@
 //! Where each command stands: the menus, which the palette, the cheat sheet and the keys go by as well.
 
 use super::{Command, Inspect, Panel, Reload, TextAction, ThemeChoice, Toward, ViewAction};
+use crate::annotate::Quantity;
 use crate::camera::{Side, Up};
 use crate::navigation::{Preset, Turning};
+use crate::scene::Surface;
 use crate::session::Purpose;
 
 /// A menu.
@@ -150,6 +152,29 @@ pub const MENUS: &[Menu] = &[
                 Command::Inspect(Inspect::EndWalk),
             ],
             &[Command::Inspect(Inspect::ListProblems)],
+        ],
+    },
+    Menu {
+        title: "Show",
+        groups: &[
+            &[
+                Command::ColorBy(Quantity::Plain),
+                Command::ColorBy(Quantity::Valence),
+                Command::ColorBy(Quantity::Degree),
+                Command::ColorBy(Quantity::Gauss),
+                Command::ColorBy(Quantity::Mean),
+                Command::ColorBy(Quantity::Birth),
+                Command::ColorBy(Quantity::Change),
+                Command::ColorBy(Quantity::Coordinate(0)),
+                Command::ColorBy(Quantity::Coordinate(1)),
+                Command::ColorBy(Quantity::Coordinate(2)),
+            ],
+            &[
+                Command::ShowBy(Surface::Lights),
+                Command::ShowBy(Surface::ReflectionLines),
+                Command::ShowBy(Surface::Isophotes),
+            ],
+            &[Command::Cut, Command::Grid, Command::Axes],
         ],
     },
     Menu { title: "Help", groups: &[&[Command::Palette, Command::CheatSheet, Command::Reference]] },

@@ -6,6 +6,7 @@ use app::evaluation::within;
 use clap::Args;
 use vv::mesh::faces::faces;
 
+use super::look::{self, LookArguments, Past};
 use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::picture::Shot;
 use super::report::Reporter;
@@ -19,6 +20,8 @@ pub struct Arguments {
     mesh: PathBuf,
     #[command(flatten)]
     output: OutputArguments,
+    #[command(flatten)]
+    look: LookArguments,
     #[command(flatten)]
     importing: Importing,
     #[command(flatten)]
@@ -39,6 +42,8 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
         Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),
     };
     let size = arguments.output.size().unwrap_or(DEFAULT_SIZE);
-    let outputs = output::prepare(&targets, Shot { size, viewpoint }, false, (&mesh, &faces), &reporter)?;
+    let shot = Shot { size, viewpoint, look: &arguments.look.look() };
+    let result = look::Result { mesh: &mesh, faces: &faces, past: &Past::default() };
+    let outputs = output::prepare(&targets, shot, false, result, &reporter)?;
     output::commit(outputs.prepared, &reporter)
 }

@@ -10,9 +10,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use image::RgbaImage;
 use vv::diagnostic::Diagnostic;
 use vv::io::Format;
-use vv::mesh::Mesh;
-use vv::mesh::faces::Faces;
 
+use super::look;
 use super::picture::Shot;
 use super::report::Reporter;
 use super::{Exit, error, fail, input, picture, view};
@@ -148,23 +147,23 @@ impl OutputArguments {
 /// [`Exit::File`] or [`Exit::NoRenderer`], reported.
 pub fn prepare(
     targets: &[Target],
-    shot: Shot,
+    shot: Shot<'_>,
     with_picture: bool,
-    (mesh, faces): (&Mesh, &Faces),
+    result: look::Result<'_>,
     reporter: &Reporter,
 ) -> Result<Outputs, Exit> {
     let mut outputs = Outputs::default();
     if with_picture || targets.iter().any(|target| target.format.is_none()) {
         reporter.progress("drawing the picture".to_owned());
         let began = Instant::now();
-        outputs.picture = Some(picture::picture(mesh, faces, shot, reporter)?);
+        outputs.picture = Some(picture::picture(result, shot, reporter)?);
         outputs.render_s = began.elapsed().as_secs_f64();
     }
     for Target { path, format } in targets {
         reporter.progress(format!("writing {}", path.display()));
         let began = Instant::now();
         let bytes = match (format, &outputs.picture) {
-            (Some(format), _) => match vv::io::write(mesh, faces, *format) {
+            (Some(format), _) => match vv::io::write(result.mesh, result.faces, *format) {
                 Ok(bytes) => bytes,
                 Err(problem) => return fail(reporter, Exit::File, error(problem.to_string())),
             },

@@ -2,15 +2,16 @@
 
 use std::io::Cursor;
 
+use app::annotate::field::NoField;
+use app::annotate::{Subject, Tint};
 use app::camera::Camera;
-use app::render::{self, RenderError};
-use app::scene::{Scene, Style};
+use app::render::{self, Dressing, RenderError};
+use app::scene::Scene;
 use app::viewpoint::Viewpoint;
 use image::{ImageFormat, RgbaImage};
-use vv::mesh::Mesh;
-use vv::mesh::faces::Faces;
 use vv::stop::Stop;
 
+use super::look::{self, Look};
 use super::open::WITHOUT_GPU;
 use super::output::Size;
 use super::report::Reporter;
@@ -42,33 +43,54 @@ pub fn keep_driver_quiet() {
 
 /// What a picture shall be like.
 #[derive(Debug, Clone, Copy)]
-pub struct Shot {
+pub struct Shot<'a> {
     /// Its size.
     pub size: Size,
     /// From where it looks; else as the window does at first.
     pub viewpoint: Option<Viewpoint>,
+    /// What it shows.
+    pub look: &'a Look,
 }
 
 /// A picture of a mesh.
 ///
 /// # Errors
-/// [`Exit::NoRenderer`], reported.
-pub fn picture(mesh: &Mesh, faces: &Faces, shot: Shot, reporter: &Reporter) -> Result<RgbaImage, Exit> {
-    let style = Style::default();
+/// [`Exit::NoRenderer`], or [`Exit::Usage`] if the mesh lacks what it is to be coloured by; reported.
+pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<RgbaImage, Exit> {
+    let look::Result { mesh, faces, past } = result;
+    let Look { style, annotations } = shot.look;
     let size = render::Size::new(shot.size.0, shot.size.1);
-    let Ok(scene) = Scene::new(mesh, faces, None, &Stop::new()) else {
+    let never = Stop::new();
+    let Ok(scene) = Scene::new(mesh, faces, None, &never) else {
         return Err(Exit::Budget); // not reached: nobody stops it
     };
-    let standard = scene.standard_view(&style, size.aspect());
+    let subject = Subject {
+        mesh,
+        faces,
+        scene: &scene,
+        generation: past.generation,
+        before: past.before.as_ref(),
+        lineage: &past.lineage,
+    };
+    let tint = match Tint::new(&subject, annotations, &never) {
+        Ok(tint) => tint,
+        Err(NoField::Stopped(_)) => return Err(Exit::Budget), // not reached either
+        Err(NoField::Missing(why)) => {
+            let diagnostic = error(format!("the picture cannot be coloured by `{}`", annotations.color_by));
+            return fail(reporter, Exit::Usage, diagnostic.evidence(why));
+        }
+    };
+    let dressing = Dressing { tint: tint.as_ref() };
+    let standard = scene.standard_view(style, size.aspect());
     let camera = match shot.viewpoint {
         None => standard,
         Some(Viewpoint::At(camera)) => camera,
         Some(Viewpoint::From { side, orthographic, up }) => {
             let camera = Camera { orthographic, ..standard.from_side(side, up) };
-            scene.fit(camera, &style, size.aspect())
+            scene.fit(camera, style, size.aspect())
         }
     };
-    render::render_image(&scene, &camera, &style, size).or_else(|problem| {
+    render::render_image(&scene, dressing, &camera, style, size).or_else(|problem| {
         let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
         let diagnostic = match problem {
             RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),

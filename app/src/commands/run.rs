@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use app::evaluation::{self, Generation, machine_limits, within};
 use app::files;
+use app::inspect::lineage::Survivors;
 use clap::{Args, ValueEnum};
 use vv::diagnostic::Diagnostic;
 use vv::diagnostic::Severity;
@@ -20,6 +21,7 @@ use vv::mesh::statistics::statistics;
 use vv::source::Sources;
 use vv::stop::Stop;
 
+use super::look::{self, LookArguments, Past};
 use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::picture::{self, Shot};
 use super::reference::{Reference, is_picture};
@@ -34,6 +36,7 @@ Examples:
   vv run loop.vv -i - -o - --format off < in.obj > out.off
   vv run loop.vv -i bunny.obj --summary json | jq .euler_characteristic
   vv run loop.vv -i bunny.obj -o new.png --reference old.png      a picture test
+  vv run loop.vv -i bunny.obj -o a.png --color-by gauss --style smooth,no-edges
 
 ";
 
@@ -60,6 +63,8 @@ pub struct Arguments {
     definitions: Vec<(String, String)>,
     #[command(flatten)]
     output: OutputArguments,
+    #[command(flatten)]
+    look: LookArguments,
     #[command(flatten)]
     importing: Importing,
     /// Seed of `random()`.
@@ -152,7 +157,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     let to_stderr = arguments.output.to_stdout() || arguments.summary.is_some();
     let mut printer = Printer::new(to_stderr, reporter);
     let run = Run { arguments, machine: &machine, settings, reporter };
-    let (mesh, found) = run.generations(mesh, rule.map(|rule| (rule, steps)), &mut printer, &mut timings)?;
+    let (mesh, past, found) = run.generations(mesh, rule.map(|rule| (rule, steps)), &mut printer, &mut timings)?;
     warnings.extend(found);
     if mesh.set.is_empty() && !targets.is_empty() {
         let diagnostic = error("the mesh has no vertices left, so there is nothing to write");
@@ -167,7 +172,9 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
 
     let size = arguments.output.size().or(reference.as_ref().and_then(Reference::size)).unwrap_or(DEFAULT_SIZE);
     let with_picture = reference.as_ref().is_some_and(Reference::is_picture);
-    let outputs = output::prepare(&targets, Shot { size, viewpoint }, with_picture, (&mesh, &faces), reporter)?;
+    let shot = Shot { size, viewpoint, look: &arguments.look.look() };
+    let result = look::Result { mesh: &mesh, faces: &faces, past: &past };
+    let outputs = output::prepare(&targets, shot, with_picture, result, reporter)?;
     timings.export_s = outputs.export_s;
     timings.render_s = outputs.render_s;
     printer.flush(reporter)?;
@@ -265,14 +272,16 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// `start` and the steps of the rule. Also returns the messages of warnings.
+    /// `start` and the steps of the rule. Also returns what was before, and the messages of warnings.
     fn generations(
         &self,
         input: Mesh,
         rule: Option<(FunctionId, u64)>,
         printer: &mut Printer,
         timings: &mut Timings,
-    ) -> Result<(Mesh, Vec<String>), Exit> {
+    ) -> Result<(Mesh, Past, Vec<String>), Exit> {
+        let mut past = Past::default();
+        past.lineage.add(0, &Survivors::default());
         let mut warnings = Vec::new();
         let mut mesh = input;
         if self.machine.program().start.is_some() {
@@ -282,7 +291,7 @@ impl Run<'_> {
             warnings.extend(self.warn("`start`", &first.warnings));
             mesh = first.mesh;
         }
-        let Some((rule, steps)) = rule else { return Ok((mesh, warnings)) };
+        let Some((rule, steps)) = rule else { return Ok((mesh, past, warnings)) };
         let name = self.machine.program().function(rule).map_or("", |f| f.name.as_str());
         for step in 1..=steps {
             let what = format!("step {step} of {steps} of `{name}`");
@@ -291,11 +300,13 @@ impl Run<'_> {
                 evaluation::advance(self.machine, rule, &mesh, step, settings, printer)
             })?;
             warnings.extend(self.warn(&what, &next.warnings));
-            mesh = next.mesh;
+            past.lineage.add(step, &next.survivors);
+            past.generation = step;
+            past.before = Some(std::mem::replace(&mut mesh, next.mesh));
             timings.steps_s.push(next.step_s);
             timings.closing_s.push(next.closing_s);
         }
-        Ok((mesh, warnings))
+        Ok((mesh, past, warnings))
     }
 
     /// Makes one generation in the time it has.

@@ -2,8 +2,8 @@
 
 use eframe::egui::{self, Align, Grid, Layout, RichText, ScrollArea, Ui, Vec2b};
 
-use super::widgets::{button, grouped, heading, seconds, switch};
-use super::{parameters, selection};
+use super::widgets::{button, grouped, heading, seconds};
+use super::{display, parameters, selection};
 use crate::command::Command;
 use crate::session::{Purpose, Session};
 use crate::worker::Frame;
@@ -24,17 +24,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.separator();
         selection::show(ui, session, commands);
         parameters::show(ui, session, commands);
-        heading(ui, "Display");
-        Grid::new("display").num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {
-            switch(ui, session, commands, Command::Faces);
-            switch(ui, session, commands, Command::Smooth);
-            ui.end_row();
-            switch(ui, session, commands, Command::Edges);
-            switch(ui, session, commands, Command::Vertices);
-            ui.end_row();
-        });
-        switch(ui, session, commands, Command::Control);
-        ui.add_space(2.0);
+        display::show(ui, session, commands);
         button(ui, session, commands, Command::Fit);
         ui.separator();
         match session.frame() {

@@ -6,8 +6,9 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 use eframe::egui::TextureId;
 use eframe::egui_wgpu::RenderState;
 
+use crate::annotate::Tint;
 use crate::camera::Camera;
-use crate::render::{RenderError, Renderer, Size, Target, Uploaded};
+use crate::render::{Dress, RenderError, Renderer, Size, Target, Uploaded, UploadedTint};
 use crate::scene::{Scene, Style};
 use crate::worker::release;
 
@@ -28,7 +29,9 @@ pub struct Picture {
     uploading: Option<Uploading>,
     /// What cannot be brought to the GPU, and why.
     refused: Option<(Arc<Scene>, RenderError)>,
-    drawn: Option<(Camera, Style)>,
+    /// The colours on the GPU.
+    tint: Option<(Arc<Tint>, UploadedTint)>,
+    drawn: Option<(Camera, Style, Option<Arc<Tint>>)>,
     /// How often it was drawn.
     pub drawings: u64,
 }
@@ -54,6 +57,7 @@ impl Picture {
             uploaded: None,
             uploading: None,
             refused: None,
+            tint: None,
             drawn: None,
             drawings: 0,
         })
@@ -67,6 +71,7 @@ impl Picture {
         &mut self,
         size: Size,
         scene: &Arc<Scene>,
+        tint: Option<&Arc<Tint>>,
         camera: &Camera,
         style: &Style,
     ) -> Result<TextureId, RenderError> {
@@ -74,14 +79,30 @@ impl Picture {
         if !self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene)) {
             self.upload(scene)?;
         }
-        if self.drawn != Some((*camera, *style))
-            && let (Some(target), Some((_, uploaded))) = (&self.target, &self.uploaded)
-        {
-            self.renderer.draw(target, uploaded, camera, style)?;
-            self.drawn = Some((*camera, *style));
+        // A scene that is still on its way is not the one these colours are for.
+        let arrived = self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene));
+        if arrived {
+            self.upload_tint(tint)?;
+        }
+        let tint = self.tint.as_ref().map(|(tint, _)| tint);
+        let is_drawn = self.drawn.as_ref().is_some_and(|(c, s, t)| (c, s) == (camera, style) && same(t.as_ref(), tint));
+        if !is_drawn && let (Some(target), Some((_, uploaded))) = (&self.target, &self.uploaded) {
+            let dress = Dress { tint: self.tint.as_ref().map(|(tint, words)| (&**tint, words)) };
+            self.renderer.draw(target, uploaded, dress, camera, style)?;
+            self.drawn = Some((*camera, *style, tint.cloned()));
             self.drawings += 1;
         }
         Ok(texture)
+    }
+
+    fn upload_tint(&mut self, tint: Option<&Arc<Tint>>) -> Result<(), RenderError> {
+        self.tint = match (tint, self.tint.take()) {
+            (None, _) => None,
+            // Another range only: the words are the same.
+            (Some(tint), Some((old, words))) if Arc::ptr_eq(&old.words, &tint.words) => Some((Arc::clone(tint), words)),
+            (Some(tint), _) => Some((Arc::clone(tint), self.renderer.upload_tint(tint)?)),
+        };
+        Ok(())
     }
 
     fn upload(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
@@ -103,7 +124,10 @@ impl Picture {
         self.uploading = None;
         self.drawn = None;
         match result {
-            Ok(uploaded) => release(self.uploaded.replace((Arc::clone(scene), uploaded))),
+            Ok(uploaded) => {
+                self.tint = None; // it is of the scene before
+                release(self.uploaded.replace((Arc::clone(scene), uploaded)));
+            }
             // Perhaps there is room without the one before.
             Err(_) if self.uploaded.take().is_some() => self.send(scene),
             Err(error) => {
@@ -149,5 +173,13 @@ impl Picture {
         self.texture = Some(texture);
         self.target = Some(target);
         Ok(texture)
+    }
+}
+
+fn same(a: Option<&Arc<Tint>>, b: Option<&Arc<Tint>>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+        (None, None) => true,
+        _ => false,
     }
 }

@@ -13,7 +13,7 @@ use vv::diagnostic::Severity;
 use super::overlay::Overlay;
 use super::picture::Picture;
 use super::widgets::{grouped, menu_item, seconds};
-use super::{clicks, marks, theme};
+use super::{clicks, gizmo, legend, marks, theme};
 use crate::command::{Command, Inspect, ViewAction};
 use crate::render::{RenderError, Size};
 use crate::scene::{Style, Theme};
@@ -90,7 +90,9 @@ impl Viewport {
             }
         });
         session.view = Some((size, style));
-        match self.picture.texture(size, &frame.scene, &camera, &style) {
+        let colors = session.colors();
+        let tint = colors.as_ref().and_then(|colors| colors.as_ref().ok());
+        match self.picture.texture(size, &frame.scene, tint, &camera, &style) {
             Ok(texture) => {
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                 ui.painter().image(texture, rect, whole, Color32::WHITE);
@@ -104,6 +106,11 @@ impl Viewport {
         let spread = camera.spread(f64::from(2.0 * clicks::NEAR / rect.height()));
         clicks::take(ui, &response, &inks, session, &frame, spread, commands);
         marks::show(ui, &inks, session, &frame);
+        let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera));
+        legend::show(ui, rect, session, &frame, colors.as_ref(), pointer);
+        if style.axes {
+            gizmo::show(ui, rect, &camera);
+        }
         overlay(ui, rect, session, &frame);
     }
 }

@@ -2,13 +2,15 @@
 
 use std::ops::Range;
 
-use glam::{DMat4, DVec3, Mat4, Vec2, Vec3, Vec4};
+use glam::{DMat4, DVec3, DVec4, Mat4, Vec2, Vec3, Vec4};
 
 use super::Size;
-use super::palette::{linear, palette};
+use super::palette::{linear, opaque, palette};
 use super::upload::{PartBuffers, Uploaded};
+use crate::annotate::scale::SAMPLES;
+use crate::annotate::{Reading, Tint};
 use crate::camera::Camera;
-use crate::scene::Style;
+use crate::scene::{Style, Surface};
 
 /// Part of a picture, in pixels from its upper left corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +57,16 @@ pub(super) struct Frame {
     smooth_shading: u32,
     encode: u32,
     parallel: f32,
+    surface: u32,
+    tint: u32,
     padding: u32,
+    window: [f32; 2],
+    clip: Vec4,
+    cut: [f32; 4],
+    ground: Vec4,
+    ground_lines: Vec4,
+    grid_line: [f32; 4],
+    scale_colors: [[f32; 4]; SAMPLES],
 }
 
 /// `Layer` of `shaders/frame.wgsl`.
@@ -92,7 +103,14 @@ const FAINTEST: f32 = 0.15;
 const GONE_AT: f64 = 2.5;
 
 /// With `encode` the shaders turn light into sRGB, because the target does not.
-pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile, encode: bool) -> Frame {
+pub(super) fn frame(
+    scene: &Uploaded,
+    camera: &Camera,
+    style: &Style,
+    tint: Option<&Tint>,
+    tile: Tile,
+    encode: bool,
+) -> Frame {
     let palette = palette(style.theme);
     // Scene coordinates are turned and shifted in double precision, so that a far-away origin costs nothing.
     let eye = (camera.eye() - scene.origin) / scene.unit;
@@ -109,6 +127,7 @@ pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile
     }
     // Whose lines of sight are parallel is infinitely far away.
     let seen_from = if camera.orthographic { camera.world_from_view * DVec3::new(0.0, 0.0, 1e6) } else { eye };
+    let ground = ground(scene);
     Frame {
         view_from_scene: view_from_scene.as_mat4(),
         clip_from_scene: (clip_from_view * view_from_scene).as_mat4(),
@@ -125,8 +144,56 @@ pub(super) fn frame(scene: &Uploaded, camera: &Camera, style: &Style, tile: Tile
         smooth_shading: u32::from(style.smooth),
         encode: u32::from(encode),
         parallel: (camera.depth_per_length(bounds) * scene.unit) as f32,
+        surface: match style.surface {
+            Surface::Lights => 0,
+            Surface::ReflectionLines => 1,
+            Surface::Isophotes => 2,
+        },
+        tint: match tint {
+            Some(tint) => tint.reading as u32,
+            None => Reading::Colors as u32,
+        },
+        clip: clip(scene, camera, style),
+        cut: linear(palette.cut),
+        ground: ground.0,
+        ground_lines: ground.1,
+        grid_line: linear(palette.grid),
+        window: tint.map_or([0.0, 1.0], Tint::window),
         padding: 0,
+        scale_colors: tint.map_or([[0.0; 4]; SAMPLES], |tint| tint.samples().map(opaque)),
     }
+}
+
+/// What is cut away, in scene coordinates.
+fn clip(scene: &Uploaded, camera: &Camera, style: &Style) -> Vec4 {
+    match style.cut.plane(scene.bounds(&Style { control: false, ..*style }), camera) {
+        Some((normal, place)) => normal.extend((place - normal.dot(scene.origin)) / scene.unit).as_vec4(),
+        None => Vec4::new(0.0, 0.0, 0.0, 1.0),
+    }
+}
+
+/// The grid: its height, the distance of its lines and its reach; and where its lines are. Distances of lines are 1, 2 or
+/// 5 times a power of ten in world units, some ten of them to the radius of what is seen.
+fn ground(scene: &Uploaded) -> (Vec4, Vec4) {
+    let bounds = scene.bounds(&Style { control: false, ..Style::default() });
+    let radius = if bounds.radius > 0.0 { bounds.radius } else { scene.unit };
+    let wanted = radius / 10.0;
+    let power = 10f64.powf(wanted.log10().floor());
+    let apart = [1.0, 2.0, 5.0, 10.0].map(|n| n * power).into_iter().find(|a| *a >= wanted).unwrap_or(power);
+    // Thick lines are where the coordinate is a multiple of ten times the distance.
+    let from = (scene.origin / (10.0 * apart)).round() * (10.0 * apart);
+    let scene_place = |x: f64, origin: f64| (x - origin) / scene.unit;
+    let origin = scene.origin;
+    // A hair below the mesh, so that a flat one is not in it.
+    let height = scene_place(scene.ground - radius * 1e-3, origin.y);
+    let grid = DVec4::new(height, apart / scene.unit, 4.0 * radius / scene.unit, 0.0);
+    let lines = DVec4::new(
+        scene_place(0.0, origin.x),
+        scene_place(0.0, origin.z),
+        scene_place(from.x, origin.x),
+        scene_place(from.z, origin.z),
+    );
+    (grid.as_vec4(), lines.as_vec4())
 }
 
 pub(super) fn layers(scene: &Uploaded, style: &Style, scale: f32) -> [Layer; LAYERS] {

@@ -4,7 +4,8 @@ use image::RgbaImage;
 
 use super::frame::Tile;
 use super::palette::{to_linear, to_srgb};
-use super::{NoRenderer, RenderError, Renderer, Size, Target, Uploaded, device_descriptor};
+use super::{Dress, NoRenderer, RenderError, Renderer, Size, Target, Uploaded, device_descriptor};
+use crate::annotate::Tint;
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
@@ -24,8 +25,21 @@ pub struct Headless {
 ///
 /// # Errors
 /// Without a graphics driver, or if the scene or the picture is too large for it.
-pub fn render_image(scene: &Scene, camera: &Camera, style: &Style, size: Size) -> Result<RgbaImage, RenderError> {
-    Headless::new(4)?.image(scene, camera, style, size)
+pub fn render_image(
+    scene: &Scene,
+    dressing: Dressing<'_>,
+    camera: &Camera,
+    style: &Style,
+    size: Size,
+) -> Result<RgbaImage, RenderError> {
+    Headless::new(4)?.dressed_image(scene, dressing, camera, style, size)
+}
+
+/// What is drawn with a scene that is not part of it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Dressing<'a> {
+    /// The colours of its faces.
+    pub tint: Option<&'a Tint>,
 }
 
 impl Headless {
@@ -65,6 +79,21 @@ impl Headless {
     /// # Errors
     /// If the scene or the picture is too large, or the driver gives up.
     pub fn image(&self, scene: &Scene, camera: &Camera, style: &Style, size: Size) -> Result<RgbaImage, RenderError> {
+        self.dressed_image(scene, Dressing::default(), camera, style, size)
+    }
+
+    /// Draws a picture of a scene and what belongs to it.
+    ///
+    /// # Errors
+    /// As [`Headless::image`].
+    pub fn dressed_image(
+        &self,
+        scene: &Scene,
+        dressing: Dressing<'_>,
+        camera: &Camera,
+        style: &Style,
+        size: Size,
+    ) -> Result<RgbaImage, RenderError> {
         let Size { width, height, scale } = size;
         if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MOST_PIXELS {
             return Err(RenderError::TooLarge(format!(
@@ -72,6 +101,8 @@ impl Headless {
             )));
         }
         let uploaded = self.renderer.upload(scene)?;
+        let words = dressing.tint.map(|tint| self.renderer.upload_tint(tint)).transpose()?;
+        let dress = Dress { tint: dressing.tint.zip(words.as_ref()) };
         let side = TILE.min(self.renderer.device.limits().max_texture_dimension_2d);
         let mut image = RgbaImage::new(width, height);
         for top in (0..height).step_by(side as usize) {
@@ -79,7 +110,7 @@ impl Headless {
                 let tile =
                     Tile { picture: size, left, top, width: side.min(width - left), height: side.min(height - top) };
                 let target = self.renderer.target(Size { width: tile.width, height: tile.height, scale })?;
-                self.renderer.draw_tile(&target, &uploaded, camera, style, tile)?;
+                self.renderer.draw_tile(&target, &uploaded, dress, camera, style, tile)?;
                 self.read(&target, &mut image, tile)?;
             }
         }

@@ -20,6 +20,9 @@ pub(super) struct Palette {
     pub point: [u8; 4],
     pub ring: [u8; 4],
     pub control: [u8; 4],
+    /// The line along a cut.
+    pub cut: [u8; 4],
+    pub grid: [u8; 4],
 }
 
 const LIGHT: Palette = Palette {
@@ -33,6 +36,8 @@ const LIGHT: Palette = Palette {
     point: [0x12, 0x2a, 0x4a, 0xff],
     ring: [0xff, 0xff, 0xff, 0xff],
     control: [0xc8, 0x1e, 0x5a, 0xff],
+    cut: [0x0c, 0x2d, 0x57, 0xff],
+    grid: [0x5a, 0x6b, 0x80, 0xa0],
 };
 
 const DARK: Palette = Palette {
@@ -46,6 +51,8 @@ const DARK: Palette = Palette {
     point: [0xf4, 0xf8, 0xff, 0xff],
     ring: [0x0b, 0x10, 0x18, 0xff],
     control: [0xff, 0x6f, 0x9f, 0xff],
+    cut: [0xcd, 0xe4, 0xff, 0xff],
+    grid: [0x8c, 0x9a, 0xad, 0x90],
 };
 
 pub(super) fn palette(theme: Theme) -> &'static Palette {
@@ -59,6 +66,11 @@ pub(super) fn palette(theme: Theme) -> &'static Palette {
 pub(super) fn linear(color: [u8; 4]) -> [f32; 4] {
     let [r, g, b, a] = color.map(|c| f32::from(c) / 255.0);
     [to_linear(r), to_linear(g), to_linear(b), a]
+}
+
+/// The same of a colour without opacity.
+pub(super) fn opaque([r, g, b]: [u8; 3]) -> [f32; 4] {
+    linear([r, g, b, 0xff])
 }
 
 /// The sRGB transfer function (IEC 61966-2-1), from the encoded value to light.

@@ -15,9 +15,11 @@ pub(super) fn color_format(opengl: bool) -> wgpu::TextureFormat {
 #[derive(Debug)]
 pub(super) struct Pipelines {
     pub background: wgpu::RenderPipeline,
-    pub faces: wgpu::RenderPipeline,
-    /// Faces with colours of vertices.
-    pub colored_faces: wgpu::RenderPipeline,
+    /// Whole, and cut open.
+    faces: [wgpu::RenderPipeline; 2],
+    /// The same in colours.
+    tinted_faces: [wgpu::RenderPipeline; 2],
+    pub grid: wgpu::RenderPipeline,
     edges: wgpu::RenderPipeline,
     vertices: wgpu::RenderPipeline,
     hidden_edges: wgpu::RenderPipeline,
@@ -29,11 +31,14 @@ pub(super) struct Pipelines {
 }
 
 /// What distinguishes one pass from another.
+#[derive(Clone, Copy)]
 struct Pass {
     name: &'static str,
     shader: &'static str,
     /// The entry point of the vertex shader.
     vertex: &'static str,
+    /// The entry point of the fragment shader.
+    fragment: &'static str,
     depth: wgpu::CompareFunction,
     /// Covers what is there and writes depth; otherwise blends over it.
     solid: bool,
@@ -45,10 +50,10 @@ const CORNER: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32],
 };
-const COLOR: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+const WORD: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<u32>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![3 => Unorm8x4],
+    attributes: &wgpu::vertex_attr_array![3 => Uint32],
 };
 
 impl Pipelines {
@@ -72,26 +77,29 @@ impl Pipelines {
             bind_group_layouts: &[Some(&frame_layout)],
             immediate_size: 0,
         });
-        let lines = |name, shader, depth| {
-            let pass = Pass { name, shader, vertex: "vertex", depth, solid: false, buffers: &[] };
-            pipeline(device, &layout, (color, samples), &pass)
-        };
-        let faces = |name, vertex, buffers| {
-            let pass = Pass { name, shader: shaders::FACES, vertex, depth: Greater, solid: true, buffers };
-            pipeline(device, &flat_layout, (color, samples), &pass)
-        };
-        let background = Pass {
-            name: "background",
-            shader: shaders::BACKGROUND,
+        let whole = Pass {
+            name: "",
+            shader: "",
             vertex: "vertex",
-            depth: Always,
+            fragment: "fragment",
+            depth: GreaterEqual,
             solid: false,
             buffers: &[],
         };
+        let lines =
+            |name, shader, depth| pipeline(device, &layout, (color, samples), &Pass { name, shader, depth, ..whole });
+        let flat = |pass: Pass| pipeline(device, &flat_layout, (color, samples), &pass);
+        let faces = |name, vertex, buffers| {
+            ["fragment", "fragment_with_cut"].map(|fragment| {
+                let shader = shaders::FACES;
+                flat(Pass { name, shader, vertex, fragment, depth: Greater, solid: true, buffers })
+            })
+        };
         Self {
-            background: pipeline(device, &flat_layout, (color, samples), &background),
+            background: flat(Pass { name: "background", shader: shaders::BACKGROUND, depth: Always, ..whole }),
             faces: faces("faces", "vertex", const { &[Some(CORNER)] }),
-            colored_faces: faces("coloured faces", "vertex_with_color", const { &[Some(CORNER), Some(COLOR)] }),
+            tinted_faces: faces("tinted faces", "vertex_with_tint", const { &[Some(CORNER), Some(WORD)] }),
+            grid: flat(Pass { name: "grid", shader: shaders::GRID, ..whole }),
             edges: lines("edges", shaders::EDGES, GreaterEqual),
             vertices: lines("vertices", shaders::VERTICES, GreaterEqual),
             hidden_edges: lines("hidden edges", shaders::EDGES, Less),
@@ -99,6 +107,11 @@ impl Pipelines {
             frame_layout,
             part_layout,
         }
+    }
+
+    /// For faces with or without colours, cut open or whole.
+    pub(super) fn faces(&self, tinted: bool, cut: bool) -> &wgpu::RenderPipeline {
+        &(if tinted { &self.tinted_faces } else { &self.faces })[usize::from(cut)]
     }
 
     /// For what lies in front of the faces or, `hidden`, behind them.
@@ -164,7 +177,7 @@ fn pipeline(
         multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some("fragment"),
+            entry_point: Some(pass.fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format,

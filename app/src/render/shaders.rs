@@ -4,8 +4,14 @@
 pub const BACKGROUND: &str =
     concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/background.wgsl"));
 /// Faces.
-pub const FACES: &str =
-    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/faces.wgsl"));
+pub const FACES: &str = concat!(
+    include_str!("../../../shaders/frame.wgsl"),
+    include_str!("../../../shaders/tint.wgsl"),
+    include_str!("../../../shaders/surface.wgsl"),
+    include_str!("../../../shaders/faces.wgsl")
+);
+/// The grid on the ground.
+pub const GRID: &str = concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/grid.wgsl"));
 /// Edges.
 pub const EDGES: &str =
     concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/edges.wgsl"));
@@ -14,5 +20,5 @@ pub const VERTICES: &str =
     concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/vertices.wgsl"));
 
 /// All of them by name.
-pub const ALL: [(&str, &str); 4] =
-    [("background", BACKGROUND), ("faces", FACES), ("edges", EDGES), ("vertices", VERTICES)];
+pub const ALL: [(&str, &str); 5] =
+    [("background", BACKGROUND), ("faces", FACES), ("grid", GRID), ("edges", EDGES), ("vertices", VERTICES)];

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::RenderError;
 use super::pipelines::Pipelines;
+use crate::annotate::Tint;
 use crate::scene::{Corner, Part, Scene, Sphere, Style};
 
 /// Data is handed over in pieces of this many bytes, which bounds what the driver must keep beside it.
@@ -17,7 +18,21 @@ pub struct Uploaded {
     pub(super) faces: Option<FaceBuffers>,
     pub(super) mesh: Option<PartBuffers>,
     pub(super) control: Option<PartBuffers>,
+    pub(super) ground: f64,
     bounds: [Sphere; 2],
+}
+
+/// The words of a tint in the memory of the GPU; for the scene it was made for.
+#[derive(Debug)]
+pub struct UploadedTint {
+    pub(super) words: wgpu::Buffer,
+}
+
+impl UploadedTint {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, tint: &Tint) -> Self {
+        let upload = Upload { device, queue };
+        Self { words: upload.buffer("tint", wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&tint.words)) }
+    }
 }
 
 #[derive(Debug)]
@@ -81,7 +96,7 @@ impl Uploaded {
             index_count: scene.mesh.triangles.len() as u32 * 3,
         });
         let bounds = [false, true].map(|control| scene.bounds(&Style { control, ..Style::default() }));
-        Self { origin: scene.origin, unit: scene.unit, faces, mesh, control, bounds }
+        Self { origin: scene.origin, unit: scene.unit, faces, mesh, control, ground: scene.ground, bounds }
     }
 
     /// A ball around what `style` shows.

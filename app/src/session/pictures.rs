@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::sync::{Arc, PoisonError};
 
 use super::Session;
+use super::coloring::drawn;
 use crate::document::ProgramText;
 use crate::preferences::{Background, PictureOptions};
-use crate::render::{self, Size, render_image};
+use crate::render::{self, Size};
 use crate::scene::{Style, Theme};
 use crate::{files, gallery, library};
 
@@ -59,11 +60,12 @@ impl Session {
             Background::White => Style { transparent: true, theme: Theme::Light, ..seen },
             Background::Transparent => Style { transparent: true, ..seen },
         };
+        let annotations = self.document.annotations.clone();
         let name = crate::document::file_name(&path);
         self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
         self.in_background(move || {
             let failed = |problem: String| format!("{}: {problem}", path.display());
-            let mut image = render_image(&frame.scene, &camera, &style, size).map_err(|e| failed(e.to_string()))?;
+            let mut image = drawn(&frame, &annotations, &camera, &style, size).map_err(|e| failed(e.to_string()))?;
             if options.background == Background::White {
                 render::put_on_white(&mut image);
             }
@@ -77,9 +79,10 @@ impl Session {
     /// The picture as it is in the viewport.
     pub(super) fn copy_image(&mut self) {
         let (Some(frame), Some((size, style))) = (self.frame.clone(), self.view) else { return };
+        let annotations = self.document.annotations.clone();
         let (camera, clipboard) = (self.document.camera, Arc::clone(&self.clipboard));
         self.in_background(move || {
-            let image = render_image(&frame.scene, &camera, &style, size).map_err(|error| error.to_string())?;
+            let image = drawn(&frame, &annotations, &camera, &style, size).map_err(|error| error.to_string())?;
             let (width, height) = (image.width() as usize, image.height() as usize);
             let mut clipboard = clipboard.lock().unwrap_or_else(PoisonError::into_inner);
             let failed = |error: arboard::Error| format!("the image cannot be copied: {error}");

@@ -298,6 +298,8 @@ impl Bench {
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
         let frame = history.frame(request, stop).map_err(stopped)?;
+        let annotations = lock(&self.shared.annotations).clone();
+        frame.colors.find(&frame.subject(), &annotations, stop);
         history.evict(self.shared.memory.load(Ordering::Relaxed), request.generation);
         Ok(frame)
     }

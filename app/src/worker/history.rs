@@ -10,6 +10,7 @@ use vv::mesh::statistics::statistics;
 use vv::stop::{Stop, Stopped};
 
 use super::{Frame, Recipe, Request, Timings};
+use crate::annotate::cell::Cell;
 use crate::evaluation::Generation;
 use crate::inspect::lineage::Lineage;
 use crate::scene::Scene;
@@ -128,6 +129,7 @@ pub(super) fn frame(
         before: None,
         lineage: Lineage::default(),
         findings: OnceLock::new(),
+        colors: Cell::default(),
         timings: Timings {
             step: generation.step_s,
             closing: generation.closing_s,

@@ -3,6 +3,8 @@
 //! `UPDATE_SNAPSHOTS=1` writes the pictures anew; look at them before you commit them. They are drawn by Mesa's software
 //! driver, without multisampling, and come out alike in every build.
 
+mod annotated;
+
 use std::path::PathBuf;
 use std::sync::OnceLock;
 

@@ -40,9 +40,7 @@ impl Hands {
         let pointer = response.hover_pos()?;
         if response.double_clicked() {
             let _span = trace::span("window: picking");
-            let spread = camera.spread(f64::from(2.0 * NEAR / rect.height()));
-            let ray = camera.ray(place(rect, pointer));
-            let pivot = scene.pick(&Pointer { ray, spread, opaque: true })?.point;
+            let pivot = scene.pick(&self::pointer(rect, pointer, &camera))?.point;
             // The eye stays where it is in the direction it looks; only what it turns around changes.
             return Some(Camera { pivot, ..camera });
         }
@@ -114,6 +112,12 @@ fn turn(camera: Camera, navigation: &Navigation, from: DVec2, to: DVec2) -> Came
         Turning::Arcball => camera.orbit(from, to),
         Turning::Turntable => camera.turntable(from, to, navigation.up),
     }
+}
+
+/// What is meant by a place in the viewport.
+pub fn pointer(rect: Rect, at: Pos2, camera: &Camera) -> Pointer {
+    let spread = camera.spread(f64::from(2.0 * NEAR / rect.height()));
+    Pointer { ray: camera.ray(place(rect, at)), spread, opaque: true }
 }
 
 fn place(rect: Rect, pos: Pos2) -> DVec2 {

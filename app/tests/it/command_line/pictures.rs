@@ -98,3 +98,29 @@ fn without_a_driver_meshes_are_made_and_pictures_say_what_they_need() {
     assert!(said.contains("mesa-vulkan-drivers") && !folder.names().contains(&"a.obj".to_owned()), "{said}");
     assert_eq!(run("run move.vv -i octahedron.obj -o a.obj --summary json").status.code(), Some(0));
 }
+
+#[test]
+fn a_picture_is_coloured_by_what_is_asked_for() {
+    let folder = Folder::with(&[]);
+    let mut seen = std::collections::HashSet::new();
+    for look in ["", " --color-by valence", " --color-by x", " --color-by x --color-range 0,9", " --color-by birth"] {
+        folder.check(&format!("run move.vv -i octahedron.obj -n 2 -o a.png --size 60x45{look}"), 0, "");
+        seen.insert(fs::read(folder.path("a.png")).unwrap());
+    }
+    assert_eq!(seen.len(), 5, "all are different");
+    let said = "the picture cannot be coloured by `heat`\n = no vertex property `heat` here";
+    folder.check("run move.vv -i octahedron.obj -o a.png --color-by heat", 2, said);
+    folder.check("run move.vv -i octahedron.obj -o a.png --color-range 0,1", 2, "--color-by");
+}
+
+#[test]
+fn a_picture_is_drawn_in_the_style_asked_for() {
+    let folder = Folder::with(&[]);
+    let mut seen = std::collections::HashSet::new();
+    for look in ["", "--style no-edges", "--style dark,grid", "--style isophotes,smooth", "--cut x", "--cut -y:0.2"] {
+        folder.check(&format!("mesh convert octahedron.obj -o a.png --size 60x45 {look}"), 0, "");
+        seen.insert(fs::read(folder.path("a.png")).unwrap());
+    }
+    assert_eq!(seen.len(), 6, "all are different");
+    folder.check("mesh convert octahedron.obj -o a.png --style smoth", 2, "did you mean `smooth`?");
+}

@@ -1,0 +1,179 @@
+//! How pictures look.
+
+use app::annotate::{Annotations, Quantity};
+use app::inspect::lineage::Lineage;
+use app::scene::{Axis, Cut, Style, Surface, Theme};
+use clap::Args;
+use vv::mesh::Mesh;
+use vv::mesh::faces::Faces;
+
+/// Options of everything that draws pictures.
+#[derive(Debug, Clone, Args)]
+pub struct LookArguments {
+    /// Colour pictures by: valence, degree (of faces), gauss, mean (curvature), birth (generation), change (in the last
+    /// step), x, y, z, or a vertex property; `NAME:color` takes a vec as red, green, blue.
+    #[arg(long, value_name = "WHAT", value_parser = quantity)]
+    color_by: Option<Quantity>,
+    /// The numbers at both ends of the colours. Default: what most of the numbers lie between.
+    #[arg(long, value_name = "LOW,HIGH", requires = "color_by", allow_hyphen_values = true, value_parser = range)]
+    color_range: Option<[f64; 2]>,
+    /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, grid, dark,
+    /// transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out.
+    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word)]
+    style: Vec<Word>,
+    /// Cut the mesh open across an axis, x, y, z or view; `-x` keeps the other side, `x:0.5` cuts elsewhere than in the
+    /// middle, from -1 to 1.
+    #[arg(long, value_name = "AXIS[:PLACE]", allow_hyphen_values = true, value_parser = cut)]
+    cut: Option<Cut>,
+}
+
+/// What a picture shows beside mesh and faces.
+#[derive(Debug, Clone, Default)]
+pub struct Look {
+    /// How it is drawn.
+    pub style: Style,
+    /// What is shown on it.
+    pub annotations: Annotations,
+}
+
+/// A mesh and where it comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Result<'a> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// Its faces.
+    pub faces: &'a Faces,
+    /// The meshes before it.
+    pub past: &'a Past,
+}
+
+/// What is known of the generations before.
+#[derive(Debug, Clone, Default)]
+pub struct Past {
+    /// How many there are.
+    pub generation: u64,
+    /// The last one.
+    pub before: Option<Mesh>,
+    /// Which vertex of a generation is which of another.
+    pub lineage: Lineage,
+}
+
+impl LookArguments {
+    /// What they say.
+    pub fn look(&self) -> Look {
+        let mut style = Style { cut: self.cut.unwrap_or_default(), ..Style::default() };
+        self.style.iter().for_each(|word| word.apply(&mut style));
+        let color_by = self.color_by.clone().unwrap_or_default();
+        Look { style, annotations: Annotations { color_by, range: self.color_range } }
+    }
+}
+
+/// A word of `--style`, and whether it stands without `no-`.
+#[derive(Debug, Clone, Copy)]
+struct Word(&'static str, bool);
+
+const WORDS: [&str; 11] = [
+    "faces",
+    "edges",
+    "vertices",
+    "smooth",
+    "colors",
+    "grid",
+    "dark",
+    "transparent",
+    "lights",
+    "reflection-lines",
+    "isophotes",
+];
+
+fn word(text: &str) -> std::result::Result<Word, String> {
+    let (text, on) = text.strip_prefix("no-").map_or((text, true), |text| (text, false));
+    let known = WORDS.into_iter().find(|word| *word == text).map(|word| Word(word, on));
+    known.ok_or_else(|| {
+        let nearest = super::closest(text, WORDS).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
+        format!("the words are {}{nearest}", WORDS.join(", "))
+    })
+}
+
+impl Word {
+    fn apply(self, style: &mut Style) {
+        let Self(word, on) = self;
+        let surface = |surface| if on { surface } else { Surface::Lights };
+        match word {
+            "faces" => style.faces = on,
+            "edges" => style.edges = on,
+            "vertices" => style.vertices = on,
+            "smooth" => style.smooth = on,
+            "colors" => style.colors = on,
+            "grid" => style.grid = on,
+            "dark" => style.theme = if on { Theme::Dark } else { Theme::Light },
+            "transparent" => style.transparent = on,
+            "reflection-lines" => style.surface = surface(Surface::ReflectionLines),
+            "isophotes" => style.surface = surface(Surface::Isophotes),
+            _ => style.surface = Surface::Lights,
+        }
+    }
+}
+
+fn quantity(text: &str) -> std::result::Result<Quantity, String> {
+    match text.parse() {
+        Ok(_) if text.is_empty() => Err("it is colours by something".to_owned()),
+        Ok(quantity) => Ok(quantity),
+        Err(never) => match never {},
+    }
+}
+
+fn range(text: &str) -> std::result::Result<[f64; 2], String> {
+    let numbers = text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+    let valid = numbers.filter(|[low, high]: &[f64; 2]| low < high && low.is_finite() && high.is_finite());
+    valid.ok_or_else(|| "a range is two numbers, the smaller one first, such as 0,1.5".to_owned())
+}
+
+fn cut(text: &str) -> std::result::Result<Cut, String> {
+    let wrong = || "a cut is x, y, z or view, perhaps with a place from -1 to 1, such as x or -y:0.5".to_owned();
+    let (axis, place) = text.split_once(':').unwrap_or((text, "0"));
+    let position: f32 = place.parse().ok().filter(|p| (-1.0..=1.0).contains(p)).ok_or_else(wrong)?;
+    let (axis, flipped) = axis.strip_prefix('-').map_or((axis, false), |axis| (axis, true));
+    let across = match axis {
+        "x" => Axis::X,
+        "y" => Axis::Y,
+        "z" => Axis::Z,
+        "view" => Axis::View,
+        _ => return Err(wrong()),
+    };
+    Ok(Cut { on: true, across, position, flipped })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cut_is_an_axis_with_a_side_and_a_place() {
+        let plane = |across, position, flipped| Ok(Cut { on: true, across, position, flipped });
+        assert_eq!(cut("x"), plane(Axis::X, 0.0, false));
+        assert_eq!(cut("-view:-0.25"), plane(Axis::View, -0.25, true));
+        for wrong in ["", "w", "x:2", "x:", "x:nan", "--x"] {
+            assert!(cut(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_range_is_two_numbers_in_order() {
+        assert_eq!(range("-1, 2.5"), Ok([-1.0, 2.5]));
+        for wrong in ["", "1", "2,1", "1,1", "0,inf", "a,b", "1,2,3"] {
+            assert!(range(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn each_word_of_a_style_changes_it_and_with_no_in_front_takes_it_back() {
+        for name in WORDS.into_iter().filter(|name| *name != "lights") {
+            let (mut on, mut off) = (Style::default(), Style::default());
+            word(name).unwrap().apply(&mut on);
+            word(&format!("no-{name}")).unwrap().apply(&mut off);
+            assert_ne!(on, off, "{name}");
+        }
+        assert!(word("smoth").unwrap_err().ends_with("did you mean `smooth`?"));
+    }
+}

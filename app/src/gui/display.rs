@@ -1,0 +1,135 @@
+//! How the mesh is drawn, and what is shown on it.
+
+use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
+use vv::mesh::Type;
+
+use super::widgets::{heading, switch, tooltip};
+use crate::annotate::{Annotations, Quantity};
+use crate::command::Command;
+use crate::scene::{Axis, Cut, Style, Surface};
+use crate::session::Session;
+
+/// Shows it.
+pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    heading(ui, "Display");
+    Grid::new("display").num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {
+        switch(ui, session, commands, Command::Faces);
+        switch(ui, session, commands, Command::Smooth);
+        ui.end_row();
+        switch(ui, session, commands, Command::Edges);
+        switch(ui, session, commands, Command::Vertices);
+        ui.end_row();
+    });
+    switch(ui, session, commands, Command::Control);
+    ui.add_space(2.0);
+    group(ui, "Colours", session.document.annotations.color_by != Quantity::Plain, |ui| colors(ui, session, commands));
+    group(ui, "Surface", false, |ui| surface(ui, session, commands));
+    group(ui, "Cut", session.document.style.cut.on, |ui| cut(ui, session, commands));
+    ui.add_space(2.0);
+}
+
+/// A part that can be folded away; `open` until somebody does.
+fn group(ui: &mut Ui, title: &str, open: bool, show: impl FnOnce(&mut Ui)) {
+    CollapsingHeader::new(title).id_salt(("display", title)).default_open(open).show(ui, show);
+}
+
+fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let Annotations { color_by, range, .. } = &session.document.annotations;
+    let combo = ComboBox::from_id_salt("colour by")
+        .selected_text(color_by.title())
+        .height(420.0)
+        .width(ui.available_width() - 8.0);
+    let response = combo.show_ui(ui, |ui| {
+        for (_, quantity) in &Quantity::NAMED {
+            let command = Command::ColorBy(quantity.clone());
+            let entry = ui.selectable_label(quantity == color_by, quantity.title());
+            if entry.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
+                commands.push(command);
+            }
+        }
+        let properties = session.frame().map_or(&[][..], |frame| frame.mesh.vertex_properties());
+        for property in properties.iter().filter(|p| p.values.ty() != Type::Vertex) {
+            let is_vec = property.values.ty() == Type::Vec;
+            let mut offer = |quantity: Quantity, tooltip: &str| {
+                if ui.selectable_label(quantity == *color_by, quantity.title()).on_hover_text(tooltip).clicked() {
+                    commands.push(Command::ColorBy(quantity));
+                }
+            };
+            offer(
+                Quantity::Property(property.name.clone()),
+                if is_vec { "show the length of this property" } else { "show this property" },
+            );
+            if is_vec {
+                offer(Quantity::Color(property.name.clone()), "show this property as red, green and blue");
+            }
+        }
+    });
+    response.response.on_hover_text("what the surface is coloured by").accessible_name("Colour by");
+    let legend = session.colors().and_then(Result::ok).map(|tint| tint.legend.clone());
+    let shows_range = session.colors().and_then(Result::ok).is_some_and(|tint| tint.has_range());
+    if let Some(legend) = legend.filter(|_| shows_range) {
+        let [low, high] = range.unwrap_or(legend.range);
+        let speed = legend.extremes.map_or(0.01, |[a, b]| ((b - a) / 300.0).max(1e-9));
+        let set = |range| Command::SetAnnotations(Annotations { range, ..session.document.annotations.clone() });
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            let (mut from, mut to) = (low, high);
+            let first = ui.add(DragValue::new(&mut from).speed(speed).max_decimals(4));
+            let first = first.on_hover_text("the number at the lower end of the colours").accessible_name("From");
+            ui.label("to");
+            let last = ui.add(DragValue::new(&mut to).speed(speed).max_decimals(4));
+            let last = last.on_hover_text("the number at the upper end of the colours").accessible_name("To");
+            if (first.changed() || last.changed()) && from < to {
+                commands.push(set(Some([from, to])));
+            }
+            let auto = ui.add_enabled(range.is_some(), eframe::egui::Button::new("Auto").small());
+            if auto.on_hover_text("from what most numbers lie between").clicked() {
+                commands.push(set(None));
+            }
+        });
+    }
+}
+
+fn surface(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    for surface in [Surface::Lights, Surface::ReflectionLines, Surface::Isophotes] {
+        let command = Command::ShowBy(surface);
+        let on = session.document.style.surface == surface;
+        if ui.radio(on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
+            commands.push(command);
+        }
+    }
+    ui.add_space(2.0);
+    switch(ui, session, commands, Command::Grid);
+    switch(ui, session, commands, Command::Axes);
+}
+
+fn cut(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let style = session.document.style;
+    let mut cut = style.cut;
+    switch(ui, session, commands, Command::Cut);
+    ui.add_enabled_ui(cut.on, |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            for (axis, name, tooltip) in [
+                (Axis::X, "x", "cut across the x axis"),
+                (Axis::Y, "y", "cut across the y axis"),
+                (Axis::Z, "z", "cut across the z axis"),
+                (Axis::View, "view", "cut across the line of sight"),
+            ] {
+                let choice = ui.selectable_label(cut.across == axis, name).on_hover_text(tooltip);
+                if choice.accessible_name(format!("Cut across {name}")).clicked() {
+                    cut.across = axis;
+                }
+            }
+            ui.checkbox(&mut cut.flipped, "other side").on_hover_text("cut away what lies on the other side");
+        });
+        ui.spacing_mut().slider_width = (ui.available_width() - 66.0).max(40.0);
+        let slider = ui.add(Slider::new(&mut cut.position, -1.0..=1.0).max_decimals(3));
+        slider
+            .on_hover_text("where it is cut, from one end of the mesh to the other")
+            .accessible_name("Place of the cut");
+    });
+    if cut != style.cut {
+        commands.push(Command::SetStyle(Style { cut: Cut { on: true, ..cut }, ..style }));
+    }
+}

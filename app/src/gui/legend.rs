@@ -1,0 +1,181 @@
+//! What the colours mean: a bar with its numbers, or the kinds with their counts.
+
+use eframe::egui::{
+    Color32, CornerRadius, FontId, Frame, Label, Margin, Pos2, Rect, RichText, Sense, Stroke, Ui, UiBuilder, pos2, vec2,
+};
+
+use super::widgets::grouped;
+use crate::annotate::cell::Colors;
+use crate::annotate::field::{Class, Kind};
+use crate::annotate::scale::{self, short};
+use crate::annotate::{Legend, Tint};
+use crate::scene::Pointer;
+use crate::session::Session;
+use crate::worker::Frame as Shown;
+
+const WIDTH: f32 = 148.0;
+const BAR: f32 = 168.0;
+const ROW: f32 = 17.0;
+
+/// Shows it in the lower right corner; with the value under the pointer, if it is over the mesh.
+pub fn show(ui: &mut Ui, rect: Rect, session: &Session, frame: &Shown, colors: Option<&Colors>, at: Option<Pointer>) {
+    let Some(colors) = colors else { return };
+    let title = session.document.annotations.color_by.title();
+    let height = match colors {
+        Ok(tint) => match &tint.field.kind {
+            Kind::Classes(classes) => classes.iter().filter(|c| c.count > 0).count() as f32 * ROW,
+            Kind::Colors => 0.0,
+            _ => BAR + 14.0,
+        },
+        Err(_) => 2.0 * ROW,
+    };
+    let height = height + 2.0 * ROW + 36.0;
+    if rect.height() < height + 40.0 || rect.width() < WIDTH + 120.0 {
+        return; // no room
+    }
+    let under = at.and_then(|pointer| under(&pointer, frame, colors.as_ref().ok()?));
+    let place =
+        Rect::from_min_size(rect.right_bottom() - vec2(WIDTH + 34.0, height + 10.0), vec2(WIDTH + 24.0, height));
+    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+        Frame::NONE
+            .fill(ui.visuals().window_fill.gamma_multiply(0.9))
+            .stroke(ui.visuals().window_stroke)
+            .corner_radius(CornerRadius::same(7))
+            .inner_margin(Margin::symmetric(12, 9))
+            .show(ui, |ui| {
+                ui.set_width(WIDTH);
+                ui.spacing_mut().item_spacing.y = 4.0;
+                line(ui, RichText::new(title).strong());
+                match colors {
+                    Ok(tint) => explain(ui, tint, under.as_ref()),
+                    Err(why) => _ = ui.add(Label::new(RichText::new(why).small()).selectable(false)),
+                }
+            });
+    });
+}
+
+fn line(ui: &mut Ui, text: RichText) {
+    ui.add(Label::new(text).selectable(false).truncate());
+}
+
+/// What lies under the pointer.
+struct Under {
+    name: String,
+    text: Option<String>,
+    number: f64,
+}
+
+fn under(pointer: &Pointer, frame: &Shown, tint: &Tint) -> Option<Under> {
+    let picked = frame.scene.pick(pointer)?;
+    let (name, index) = if tint.field.at_faces {
+        let face = picked.face?;
+        (format!("face {}", face + 1), face)
+    } else {
+        let vertex = picked.vertex?.what;
+        (vertex.to_string(), vertex.index())
+    };
+    let number = tint.field.numbers.get(index).copied().unwrap_or(f64::NAN);
+    Some(Under { name, text: tint.field.text(index), number })
+}
+
+fn explain(ui: &mut Ui, tint: &Tint, under: Option<&Under>) {
+    match &tint.field.kind {
+        Kind::Classes(classes) => kinds(ui, classes, under),
+        Kind::Colors => {}
+        kind => bar(ui, kind, &tint.legend, under),
+    }
+    let value = match under {
+        Some(Under { name, text: Some(text), .. }) => format!("{name}: {text}"),
+        Some(Under { name, text: None, .. }) => format!("{name}: none"),
+        None => match (&tint.field.note, tint.legend.without) {
+            (Some(note), _) => note.clone(),
+            (None, 0) => String::new(),
+            (None, n) => format!("{} without", grouped(n)),
+        },
+    };
+    line(ui, RichText::new(value).small());
+}
+
+fn kinds(ui: &mut Ui, classes: &[Class], under: Option<&Under>) {
+    for (i, class) in classes.iter().enumerate().filter(|(_, class)| class.count > 0) {
+        let is_under = under.is_some_and(|under| under.number == i as f64);
+        let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, ROW - 4.0), Sense::hover());
+        let swatch = Rect::from_min_size(rect.min, vec2(14.0, 13.0));
+        let text = ui.visuals().text_color();
+        ui.painter().rect_filled(swatch, 2.0, color32(class.color));
+        if is_under {
+            ui.painter().rect_stroke(
+                swatch.expand(1.5),
+                3.0,
+                Stroke::new(1.5, text),
+                eframe::egui::StrokeKind::Outside,
+            );
+        }
+        let mut row = ui.new_child(UiBuilder::new().max_rect(rect.with_min_x(rect.left() + 22.0)));
+        row.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            line(ui, RichText::new(&class.name).small());
+            ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
+                line(ui, RichText::new(grouped(class.count)).small().weak());
+            });
+        });
+    }
+}
+
+/// The bar with its histogram at the left and its numbers at the right.
+fn bar(ui: &mut Ui, kind: &Kind, legend: &Legend, under: Option<&Under>) {
+    const BAR_WIDTH: f32 = 16.0;
+    const COUNTS: f32 = 56.0;
+    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, BAR + 10.0), Sense::hover());
+    let rect = rect.shrink2(vec2(0.0, 5.0));
+    let bar = Rect::from_min_size(rect.min + vec2(COUNTS + 4.0, 0.0), vec2(BAR_WIDTH, BAR));
+    let painter = ui.painter();
+    const STEPS: usize = 84;
+    let height = bar.height() / STEPS as f32;
+    for i in 0..STEPS {
+        let t = (i as f64 + 0.5) / STEPS as f64;
+        let top = bar.bottom() - (i + 1) as f32 * height;
+        let step = Rect::from_min_size(pos2(bar.left(), top), vec2(bar.width(), height + 0.5));
+        painter.rect_filled(step, 0.0, color32(scale::color(kind, t)));
+    }
+    painter.rect_stroke(bar, 0.0, ui.visuals().window_stroke, eframe::egui::StrokeKind::Outside);
+    // The square root keeps the few visible beside the many.
+    let most = legend.histogram.iter().copied().max().unwrap_or(0).max(1);
+    let fill = ui.visuals().weak_text_color().gamma_multiply(0.6);
+    let height = bar.height() / legend.histogram.len().max(1) as f32;
+    for (i, &n) in legend.histogram.iter().enumerate().filter(|(_, n)| **n > 0) {
+        let length = (f64::from(n) / f64::from(most)).sqrt() as f32 * COUNTS;
+        let bottom = bar.bottom() - i as f32 * height;
+        let size = vec2(length.max(1.0), (height - 0.5).max(0.5));
+        painter.rect_filled(Rect::from_min_size(pos2(bar.left() - 4.0 - length, bottom - height), size), 0.0, fill);
+    }
+    let [low, high] = legend.range;
+    let font = FontId::proportional(11.0);
+    let text = ui.visuals().text_color();
+    for i in 0..=4 {
+        let t = f64::from(i) / 4.0;
+        let at = pos2(bar.right() + 3.0, bar.bottom() - bar.height() * t as f32);
+        painter.line_segment([at - vec2(3.0, 0.0), at + vec2(3.0, 0.0)], Stroke::new(1.0, text));
+        let number = low + (high - low) * t;
+        // What lies beyond the ends has their colours.
+        let sign = match (i, legend.extremes) {
+            (0, Some([least, _])) if least < low => "≤ ",
+            (4, Some([_, most])) if most > high => "≥ ",
+            _ => "",
+        };
+        let number = if number.abs() < (high - low).abs() * 1e-9 { 0.0 } else { number };
+        let label = format!("{sign}{}", short(number));
+        painter.text(at + vec2(6.0, 0.0), eframe::egui::Align2::LEFT_CENTER, label, font.clone(), text);
+    }
+    if let Some(under) = under.filter(|under| under.number.is_finite()) {
+        let t = ((under.number - low) / (high - low)).clamp(0.0, 1.0) as f32;
+        let at = pos2(bar.left(), bar.bottom() - bar.height() * t);
+        let line: [Pos2; 2] = [at - vec2(4.0, 0.0), at + vec2(BAR_WIDTH + 4.0, 0.0)];
+        painter.line_segment(line, Stroke::new(3.0, ui.visuals().window_fill));
+        painter.line_segment(line, Stroke::new(1.5, text));
+    }
+}
+
+fn color32([r, g, b]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}

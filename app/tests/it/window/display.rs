@@ -1,0 +1,112 @@
+//! How the mesh is drawn and what is shown on it.
+
+use app::annotate::Quantity;
+use app::scene::{Axis, Surface};
+
+use super::*;
+
+fn unfold(window: &mut Harness<'static, App>, group: &str) {
+    window.get_by_label(group).click();
+    window.run_steps(20); // it opens slowly
+}
+
+/// Until the colours asked for are known.
+#[track_caller]
+fn colored(window: &mut Harness<'static, App>) {
+    until(window, "the colours are known", |s| s.colors().is_some());
+    window.step();
+}
+
+#[test]
+fn a_quantity_is_chosen_from_a_list_and_explained_beside_the_mesh() {
+    let mut window = octahedron();
+    unfold(&mut window, "Colours");
+    choose(&mut window, "Colour by", "valence");
+    colored(&mut window);
+    assert_eq!(window.state().session().document.annotations.color_by, Quantity::Valence);
+    window.get_by_label("4");
+    let tint = window.state().session().colors().unwrap().unwrap();
+    assert_eq!(tint.field.numbers.len(), 6);
+    choose(&mut window, "Colour by", "nothing");
+    assert!(window.state().session().colors().is_none());
+    assert!(window.query_by_label("4").is_none());
+}
+
+#[test]
+fn properties_of_the_program_are_offered_and_their_range_can_be_set() {
+    let mut window = octahedron();
+    write(&mut window, "vertex { double heat = 0.0; };\nvoid f(mesh& S) { forall v in S v$heat = v$pos.x; }\n");
+    click(&mut window, "Step");
+    unfold(&mut window, "Colours");
+    choose(&mut window, "Colour by", "heat");
+    colored(&mut window);
+    let low = window.get_by_label("From").rect().center();
+    window.drag_at(low);
+    window.step();
+    window.hover_at(low + egui::vec2(30.0, 0.0));
+    window.step();
+    window.drop_at(low + egui::vec2(30.0, 0.0));
+    settle(&mut window);
+    let [low, high] = window.state().session().document.annotations.range.unwrap();
+    assert!(low > -1.0 && (high - 1.0).abs() < 1e-9, "{low} {high}");
+    click(&mut window, "Auto");
+    assert_eq!(window.state().session().document.annotations.range, None);
+}
+
+#[test]
+fn what_a_generation_lacks_is_said_in_place_of_colours() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::ColorBy(Quantity::Change));
+    colored(&mut window);
+    window.get_by_label("generation 0 has none before it");
+    click(&mut window, "Step");
+    colored(&mut window);
+    window.get_by_label("born");
+}
+
+#[test]
+fn colours_come_with_each_generation() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::ColorBy(Quantity::Birth));
+    colored(&mut window);
+    click(&mut window, "Step");
+    // No picture without them between.
+    let tint = window.state().session().colors().unwrap().unwrap();
+    assert_eq!(tint.field.numbers.iter().filter(|g| **g == 1.0).count(), 12);
+}
+
+#[test]
+fn the_mesh_is_cut_open_by_key_and_by_dragging_its_place() {
+    let mut window = octahedron();
+    press(&mut window, Key::X);
+    assert!(window.state().session().document.style.cut.on);
+    unfold(&mut window, "Cut");
+    click(&mut window, "Cut across y");
+    assert_eq!(window.state().session().document.style.cut.across, Axis::Y);
+    let field = window.get_by_label("Place of the cut").rect();
+    window.drag_at(field.center());
+    window.step();
+    window.hover_at(field.center() + egui::vec2(90.0, 0.0));
+    window.step();
+    window.drop_at(field.center() + egui::vec2(90.0, 0.0));
+    settle(&mut window);
+    assert!(window.state().session().document.style.cut.position > 0.2);
+    press(&mut window, Key::X);
+    assert!(!window.state().session().document.style.cut.on);
+}
+
+#[test]
+fn surface_grid_and_axes_are_switched() {
+    let mut window = octahedron();
+    unfold(&mut window, "Surface");
+    click(&mut window, "Isophotes");
+    assert_eq!(window.state().session().document.style.surface, Surface::Isophotes);
+    click(&mut window, "Lights");
+    assert_eq!(window.state().session().document.style.surface, Surface::Lights);
+    for key in [Key::G, Key::A] {
+        press(&mut window, key);
+    }
+    assert!(is_on(&window, "Grid") && is_on(&window, "Axes"));
+    let style = window.state().session().document.style;
+    assert!(style.grid && style.axes);
+}
