@@ -1,5 +1,7 @@
 //! Pictures without a window.
 
+use std::time::Duration;
+
 use image::RgbaImage;
 
 use super::frame::Tile;
@@ -14,6 +16,9 @@ const TILE: u32 = 2048;
 
 /// Most pixels of a picture: a gigabyte.
 const MOST_PIXELS: u64 = 1 << 28;
+
+/// How long a picture that is drawn may take to be read.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A renderer with a device of its own.
 #[derive(Debug)]
@@ -150,7 +155,8 @@ impl Headless {
             let _ = sender.send(result); // the receiver is gone only after an error
         });
         device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error.to_string()))?;
-        match receiver.try_recv() {
+        // Another thread that waits for the same device may be the one that is told, a little later.
+        match receiver.recv_timeout(PATIENCE) {
             Ok(Ok(())) => {}
             Ok(Err(error)) => return Err(failed(&error.to_string())),
             Err(error) => return Err(failed(&error.to_string())),
