@@ -73,6 +73,7 @@ pub const MESHES: &[Shipped] = &[
     Shipped { name: "square-open.obj", text: include_str!("../../assets/meshes/square-open.obj") },
     Shipped { name: "grid-open.obj", text: include_str!("../../assets/meshes/grid-open.obj") },
     Shipped { name: "grid-open-quads.obj", text: include_str!("../../assets/meshes/grid-open-quads.obj") },
+    Shipped { name: "knot.obj", text: include_str!("../../assets/meshes/knot.obj") },
     Shipped { name: "star.obj", text: include_str!("../../assets/meshes/star.obj") },
 ];
 

@@ -3,7 +3,7 @@
 //!
 //! | format | positions | colours | other values | polygons |
 //! |---|---|---|---|---|
-//! | OBJ | exact | `v x y z r g b` | `sharpness` of edges and vertices, as OpenSubdiv's `t crease`, `t corner` | any |
+//! | OBJ | exact | `v x y z r g b` | `sharpness` of edges and vertices, as OpenSubdiv's `t crease`, `t corner` | any, wires as `l` |
 //! | OFF | exact | bytes (COFF) | | any |
 //! | PLY | exact | bytes | all of vertices, edges and the whole | any |
 //! | STL | 32 bits | | | triangles |
@@ -260,7 +260,7 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions) -> Result<(Mesh
     let no_faces = polygons.is_empty();
     let (mesh, repairs) = build::build(polygons, options.strict, &options.stop)?;
     diagnostics.extend(repairs);
-    if no_faces {
+    if no_faces && mesh.set.is_empty() {
         diagnostics.push(warning("the file has no faces, so the mesh is empty"));
     }
     Ok((mesh, diagnostics))
@@ -272,8 +272,8 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions) -> Result<(Mesh
 /// three or more fans of faces in one vertex, whose order polygons do not tell, for polygons that were cut into
 /// triangles, and for STL, which does not keep the order of vertices.
 ///
-/// Polygons do not tell of edges without faces; a face of two corners, the edge that is a component by itself, is left
-/// out.
+/// Wires, edges with a hole on either side, are written to OBJ alone. A face of two corners, the edge that is a component
+/// by itself, is left out.
 ///
 /// # Errors
 /// If the format cannot hold so much.

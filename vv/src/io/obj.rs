@@ -3,9 +3,11 @@
 //! Left to itself tobj numbers vertices by their first use in faces and drops unused ones, starts a mesh with vertices
 //! of its own at each group, takes polylines for faces, fails at continued lines, at comments behind numbers and at
 //! colours of some vertices, accepts NaN, and does not name lines. So it is handed a text of vertices and faces alone,
-//! one statement to a line, that begins with a face of all vertices, which keeps them all and their order. The line it
-//! read last is where a statement is wrong. Colours and tags are read on the way.
+//! one statement to a line, that begins with a face of all vertices, which keeps them all and their order. Polylines are
+//! among the faces, and are known by their place. The line it read last is where a statement is wrong. Colours and tags
+//! are read on the way.
 
+mod polylines;
 mod tags;
 
 use std::borrow::Cow;
@@ -69,8 +71,8 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
         Ok((models, _)) => models,
         Err(error) => return Err(explain(text, feed.line, error)),
     };
-    let Feed { lines, mut ignored, colors, greatest, tags, .. } = feed;
-    if vertex_count == 0 && lines.is_empty() && ignored.unknown.0 > 0 {
+    let Feed { faces, mut ignored, colors, greatest, tags, .. } = feed;
+    if vertex_count == 0 && faces.is_empty() && ignored.unknown.0 > 0 {
         return Err(invalid(None, "this is no OBJ file: no line begins with `v` or `f`"));
     }
     let Some(mesh) = models.into_iter().next().map(|model| model.mesh) else {
@@ -86,14 +88,15 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     }
     let mut polygons = Polygons::new(positions);
     let mut corners = &mesh.indices[vertex_count.min(mesh.indices.len())..];
-    for (i, &line) in lines.iter().enumerate() {
+    for (i, &Face { line, open }) in faces.iter().enumerate() {
         stop.check()?;
         // No list of sizes means triangles; the first is that of the face of all vertices.
         let len =
             if mesh.face_arities.is_empty() { 3 } else { mesh.face_arities.get(i + 1).map_or(0, |&n| n as usize) };
         let (face, rest) = corners.split_at(len.min(corners.len()));
         corners = rest;
-        polygons.push(face.iter().copied(), Some(line)).map_err(|_| invalid(Place::line(line), Full.to_string()))?;
+        let added = if open { polygons.push_wire(face) } else { polygons.push(face.iter().copied(), Some(line)) };
+        added.map_err(|_| invalid(Place::line(line), Full.to_string()))?;
     }
     polygons.values.vertices.extend(colors.property(greatest));
     tags.give(&mut polygons.values, vertex_count);
@@ -161,6 +164,13 @@ fn cut_off(text: &[u8]) -> Option<Statement<'_>> {
     Statements::new(text).last().filter(|s| s.keyword() == b"f" && s.arguments().count() < 3)
 }
 
+/// A statement with corners.
+struct Face {
+    line: u32,
+    /// Whether it is a polyline.
+    open: bool,
+}
+
 /// What tobj reads.
 struct Feed<'a> {
     statements: Statements<'a>,
@@ -170,8 +180,7 @@ struct Feed<'a> {
     read: usize,
     /// The line of that statement, 0 before the first.
     line: u32,
-    /// The lines of faces.
-    lines: Vec<u32>,
+    faces: Vec<Face>,
     ignored: Ignored,
     colors: Colors,
     /// The greatest opacity of colours.
@@ -195,7 +204,7 @@ impl<'a> Feed<'a> {
             buffer,
             read: 0,
             line: 0,
-            lines: Vec::new(),
+            faces: Vec::new(),
             ignored: Ignored::default(),
             colors: Colors::default(),
             greatest: 0.0,
@@ -225,9 +234,13 @@ impl<'a> Feed<'a> {
                         self.buffer.push(b' ');
                     }
                 }
-                b"f" => {
-                    self.lines.push(statement.line);
-                    self.buffer.extend_from_slice(&statement.text);
+                b"f" | b"l" => {
+                    self.faces.push(Face { line: statement.line, open: keyword == b"l" });
+                    self.buffer.push(b'f');
+                    for word in statement.arguments() {
+                        self.buffer.push(b' ');
+                        self.buffer.extend_from_slice(word);
+                    }
                 }
                 b"t" => {
                     match self.tags.add(statement.arguments(), |word| statement.place(word)) {
@@ -290,7 +303,6 @@ impl BufRead for Feed<'_> {
 #[derive(Default)]
 struct Ignored {
     attributes: bool,
-    lines: (usize, u32),
     points: (usize, u32),
     free_form: (usize, u32),
     unknown: (usize, u32),
@@ -300,7 +312,6 @@ struct Ignored {
 impl Ignored {
     fn note(&mut self, line: u32, keyword: &[u8]) {
         let counter = match keyword {
-            b"l" => &mut self.lines,
             b"p" => &mut self.points,
             _ if ATTRIBUTES.contains(&keyword) => {
                 self.attributes = true;
@@ -323,9 +334,8 @@ impl Ignored {
     fn diagnostics(&mut self) -> Vec<Diagnostic> {
         let mut diagnostics = Vec::new();
         let warnings = [
-            (self.lines, "`l` (a line)".to_owned(), "polylines are not read"),
             (self.points, "`p` (points)".to_owned(), "points are not read"),
-            (self.free_form, "a free-form curve or surface".to_owned(), "only polygons are read"),
+            (self.free_form, "a free-form curve or surface".to_owned(), "only polygons and lines are read"),
             (self.unknown, std::mem::take(&mut self.first_unknown), "this is no statement of an OBJ file"),
         ];
         for ((n, line), what, why) in warnings {
@@ -378,6 +388,13 @@ fn explain(text: &[u8], line: u32, error: tobj::LoadError) -> ReadError {
             }
             None => format!("the face cannot be read: {error}"),
         },
+        b"l" => match arguments.clone().find(|word| !is_corner(word)) {
+            Some(word) => {
+                about = statement.place(word);
+                format!("{} is no point of a line, as `7`, `-1` or `7/1` would be", show(word))
+            }
+            None => format!("the line cannot be read: {error}"),
+        },
         _ => format!("the file cannot be read as OBJ: {error}"),
     };
     invalid(Some(about).filter(|_| line > 0), message)
@@ -397,7 +414,7 @@ fn bad_corner(text: &[u8]) -> Option<ReadError> {
     for statement in Statements::new(text) {
         match statement.keyword() {
             b"v" => before += 1,
-            b"f" => {
+            keyword @ (b"f" | b"l") => {
                 for word in statement.arguments() {
                     let index = word.split(|&b| b == b'/').next().and_then(|part| std::str::from_utf8(part).ok());
                     let index = index.and_then(|part| part.parse::<i64>().ok());
@@ -411,7 +428,8 @@ fn bad_corner(text: &[u8]) -> Option<ReadError> {
                         },
                         Some(_) => continue,
                     };
-                    let message = format!("the face has a corner at vertex {}, but {why}", show(word));
+                    let what = if keyword == b"f" { "face has a corner" } else { "line has a point" };
+                    let message = format!("the {what} at vertex {}, but {why}", show(word));
                     return Some(invalid(statement.place(word), message));
                 }
             }
@@ -431,7 +449,7 @@ fn not_finite(text: &[u8], index: usize) -> ReadError {
     }
 }
 
-/// As text, with colours and sharpness if there are any.
+/// As text, with polylines, colours and sharpness if there are any.
 pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
     let (numbers, members) = numbering(mesh);
     let colors = color::column(mesh);
@@ -459,6 +477,7 @@ pub(super) fn write(mesh: &Mesh, faces: &Faces) -> Vec<u8> {
             text.push(b'\n');
         }
     });
+    polylines::write(mesh, &members, &numbers, &mut text);
     tags::write(mesh, &members, &numbers, &mut text);
     text
 }

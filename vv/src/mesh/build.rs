@@ -16,6 +16,7 @@ mod clean;
 mod edges;
 mod fans;
 mod values;
+mod wires;
 
 use glam::DVec3;
 
@@ -33,7 +34,7 @@ const DRAWN: usize = 1000;
 /// How many corners of a face are written out.
 const CORNERS_SHOWN: usize = 12;
 
-/// Polygons over numbered vertices, as files hold them.
+/// Polygons and wires over numbered vertices, as files hold them.
 #[derive(Debug, Clone, Default)]
 pub struct Polygons {
     /// Positions of the vertices.
@@ -43,6 +44,8 @@ pub struct Polygons {
     ends: Vec<u32>,
     /// For each face its number in the file, from 1, and its line, 0 if unknown.
     names: Vec<(u32, u32)>,
+    /// Edges without faces.
+    wires: Vec<[u32; 2]>,
     /// What else is said of vertices, edges and the whole.
     pub values: NamedValues,
     /// Once cleaned: for each vertex its number in the file.
@@ -96,6 +99,21 @@ impl Polygons {
         self.ends.push(self.corners.len() as u32);
         self.names.push((self.ends.len() as u32, line.unwrap_or(0)));
         Ok(())
+    }
+
+    /// Adds a wire from point to point by the numbers of vertices, from 0. A point that is no vertex makes none: the
+    /// number is returned.
+    ///
+    /// # Errors
+    /// The first point that is not there.
+    pub fn push_wire(&mut self, points: &[u32]) -> Result<(), u32> {
+        match points.iter().find(|&&point| point as usize >= self.positions.len()) {
+            Some(&point) => Err(point),
+            None => {
+                self.wires.extend(points.windows(2).map(|ends| [ends[0], ends[1]]));
+                Ok(())
+            }
+        }
     }
 
     /// How many faces.
@@ -179,9 +197,9 @@ struct Report {
     remarks: Vec<Diagnostic>,
 }
 
-/// Makes a mesh whose faces are the polygons. Its vertices are those of the input in order, then duplicates; its set
+/// Makes a mesh whose faces are the polygons and whose other edges the wires, with a hole on either side. Its vertices are those of the input in order, then duplicates; its set
 /// holds them all. The first face that names a vertex gives the start of its ring: after (…, a, v, c, …) the ring of v
-/// begins with c, or where v lies on a border after the gap before the fan of that face.
+/// begins with c, or where v lies on a border after the gap before the fan of that face. Wires follow the fans.
 ///
 /// What is no rotation system is mended, and what was done comes back as warnings without spans:
 ///
@@ -194,6 +212,8 @@ struct Report {
 /// | several fans at a vertex, some closed | a vertex for each closed fan, one for all open ones |
 /// | three or more open fans at a vertex | kept in the order of their first faces, as their cyclic order is not known |
 /// | two faces back to back | kept |
+/// | a wire at a vertex inside of the surface | a vertex for the wires there |
+/// | a wire that runs along a side of a face or another wire | dropped |
 /// | a surface that is not orientable | refused, with a cycle of faces that proves it |
 ///
 /// Faces at an edge with more than two are paired where they run in opposite directions, those that are connected
@@ -208,7 +228,8 @@ pub fn build(polygons: Polygons, strict: bool, stop: &Stop) -> Result<(Mesh, Vec
     let mut polygons = clean::clean(polygons, &mut report, stop)?;
     let mut edges = Edges::new(&polygons, stop)?;
     edges.orient(&mut polygons, &mut report, stop)?;
-    let (mut mesh, duplicated) = fans::mesh(&polygons, &edges, &mut report, stop)?;
+    let (mut mesh, mut duplicated) = fans::mesh(&polygons, &edges, &mut report, stop)?;
+    wires::join(&mut mesh, &polygons.wires, &mut duplicated, &mut report, stop)?;
     let mut origins = std::mem::take(&mut polygons.origins);
     origins.extend(duplicated.iter().map(|&v| origins[v as usize]).collect::<Vec<_>>());
     values::give(&mut mesh, std::mem::take(&mut polygons.values), &origins, &mut report, stop)?;

@@ -13,6 +13,7 @@ mod ply;
 mod robust;
 mod stl;
 mod values;
+mod wires;
 
 use values::check_values;
 
@@ -315,10 +316,8 @@ fn obj_colours_and_weights() {
 #[test]
 fn obj_statements_that_are_not_read_are_named() {
     check_three(
-        "l 1 2 3\nl 1 3\np 1\nf 1 2 3\n",
-        "1 2 3\n\
-         Warning: `l` (a line) on line 4 and 1 more like it ignored: polylines are not read\n\
-         Warning: `p` (points) on line 6 ignored: points are not read",
+        "p 1\np 2\nf 1 2 3\n",
+        "1 2 3\nWarning: `p` (points) on line 4 and 1 more like it ignored: points are not read",
     );
     check_three(
         "foo 1 2\nbar\nf 1 2 3\n",
@@ -326,7 +325,7 @@ fn obj_statements_that_are_not_read_are_named() {
     );
     check_three(
         "cstype bspline\ndeg 3\nf 1 2 3\n",
-        "1 2 3\nWarning: a free-form curve or surface on line 4 and 1 more like it ignored: only polygons are read",
+        "1 2 3\nWarning: a free-form curve or surface on line 4 and 1 more like it ignored: only polygons and lines are read",
     );
 }
 

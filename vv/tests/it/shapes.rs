@@ -45,6 +45,7 @@ fn assets_are_what_is_made_here() {
     check("grid-open", triangulated(grid()));
     check_sharp("cube-creased", hull(&cube), can);
     check_sharp("pawn", pawn(), turned_edges);
+    check_wire("knot", &knot());
 }
 
 /// Compares a shape with its file.
@@ -64,6 +65,20 @@ fn check_sharp(name: &str, (positions, polygons): Shape, sharpness: impl Fn(DVec
         made.values.edges.push(EdgeValues { name: SHARPNESS.to_owned(), ends, values: Values::Double(values.into()) });
     }
     polygons.into_iter().for_each(|face| made.push(face, None).unwrap());
+    compare(name, made);
+}
+
+/// Compares a closed wire with its file.
+#[track_caller]
+fn check_wire(name: &str, points: &[DVec3]) {
+    let mut made = Polygons::new(points.to_vec());
+    let once_round: Vec<u32> = (0..points.len() as u32).chain([0]).collect();
+    made.push_wire(&once_round).unwrap();
+    compare(name, made);
+}
+
+#[track_caller]
+fn compare(name: &str, made: Polygons) {
     let (mesh, warnings) = build(made, true, &Stop::new()).unwrap();
     assert_eq!(warnings, [], "{name}");
     let faces = faces(&mesh, &Stop::new()).unwrap();
@@ -77,6 +92,13 @@ fn check_sharp(name: &str, (positions, polygons): Shape, sharpness: impl Fn(DVec
     }
     let file = std::fs::read(&path).unwrap();
     assert_eq!(String::from_utf8(file).unwrap(), String::from_utf8(text).unwrap(), "{}", path.display());
+}
+
+/// The trefoil.
+fn knot() -> Vec<DVec3> {
+    let points = (0..18).map(|i| TAU * f64::from(i) / 18.0);
+    let at = |t: f64| dvec3(t.sin() + 2.0 * (2.0 * t).sin(), t.cos() - 2.0 * (2.0 * t).cos(), -(3.0 * t).sin());
+    points.map(|t| (at(t) * 1e3).round() / 1e3 + DVec3::ZERO).collect()
 }
 
 /// Of what faces enclose: the sum of the cones from the origin.

@@ -56,6 +56,7 @@ fn drop_degenerate(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> 
     }
     kept.positions = std::mem::take(&mut polygons.positions);
     kept.values = std::mem::take(&mut polygons.values);
+    kept.wires = std::mem::take(&mut polygons.wires);
     Ok(kept)
 }
 
@@ -101,12 +102,13 @@ fn drop_duplicates(polygons: Polygons, report: &mut Report, stop: &Stop) -> Resu
     }
     kept.positions = polygons.positions;
     kept.values = polygons.values;
+    kept.wires = polygons.wires;
     Ok(kept)
 }
 
 fn drop_isolated(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> Result<Polygons, Stopped> {
     let mut used = vec![false; polygons.positions.len()];
-    for &corner in &polygons.corners {
+    for &corner in polygons.corners.iter().chain(polygons.wires.iter().flatten()) {
         used[corner as usize] = true;
     }
     stop.check()?;
@@ -128,7 +130,7 @@ fn drop_isolated(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> Re
         number[v] = next;
         next += u32::from(used);
     }
-    for corner in &mut polygons.corners {
+    for corner in polygons.corners.iter_mut().chain(polygons.wires.iter_mut().flatten()) {
         *corner = number[*corner as usize];
     }
     let mut v = 0;

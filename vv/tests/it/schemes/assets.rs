@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use vv::engine::{Engine, Machine, Settings};
 use vv::io::{Format, ReadOptions, read};
-use vv::mesh::Mesh;
 use vv::mesh::close::close;
 use vv::mesh::faces::faces;
 use vv::mesh::statistics::{Statistics, statistics};
+use vv::mesh::{Mesh, Value};
 use vv::stop::Stop;
 
 use super::{assets_folder, compile};
@@ -20,11 +20,13 @@ enum Class {
     Quads,
     Polygons,
     ClosedPolygons,
+    Wires,
     /// What it makes itself in `start`.
     Own,
 }
 
-/// File, rule if only that, class. Programs that make their own mesh need no row.
+/// File, rule if only that, class. Programs that make a mesh of their own run on that, too; those that do nothing else
+/// need no row.
 const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("butterfly.vv", None, Class::Triangles),
     ("catmull-clark.vv", None, Class::Polygons),
@@ -35,9 +37,12 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("conway.vv", Some("ambo"), Class::Polygons),
     ("conway.vv", Some("expand"), Class::Polygons),
     ("conway.vv", None, Class::ClosedPolygons),
+    ("curves.vv", None, Class::Wires),
     ("delaunay.vv", None, Class::Triangles),
+    ("distance.vv", None, Class::Polygons),
     ("doo-sabin.vv", None, Class::Polygons),
     ("four-eight.vv", None, Class::Polygons),
+    ("koch.vv", None, Class::Triangles),
     ("limit.vv", Some("loop_limit"), Class::Triangles),
     ("limit.vv", Some("catmull_clark_limit"), Class::Quads),
     ("loop-creases.vv", None, Class::Triangles),
@@ -48,8 +53,12 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("paper-polyhedral.vv", None, Class::Triangles),
     ("paper-sqrt3.vv", None, Class::ClosedTriangles),
     ("quad-triangle.vv", None, Class::Polygons),
+    ("reaction-diffusion.vv", None, Class::Polygons),
+    ("sierpinski.vv", None, Class::Triangles),
+    ("sierpinski-tetrahedron.vv", None, Class::ClosedPolygons),
     ("smooth.vv", None, Class::Polygons),
     ("sqrt3.vv", None, Class::Triangles),
+    ("tissue.vv", None, Class::ClosedPolygons),
 ];
 
 fn files(folder: &str) -> Vec<PathBuf> {
@@ -69,6 +78,9 @@ fn count(mesh: &Mesh) -> Statistics {
 }
 
 fn supports(class: Class, statistics: &Statistics) -> bool {
+    if statistics.face_degrees.is_empty() {
+        return class == Class::Wires;
+    }
     let triangles = statistics.face_degrees.iter().all(|&(n, _)| n == 3);
     match class {
         Class::Triangles => triangles,
@@ -76,7 +88,7 @@ fn supports(class: Class, statistics: &Statistics) -> bool {
         Class::Polygons => true,
         Class::ClosedPolygons => statistics.closed,
         Class::Quads => statistics.face_degrees.iter().all(|&(n, _)| n == 4),
-        Class::Own => false,
+        Class::Wires | Class::Own => false,
     }
 }
 
@@ -108,12 +120,23 @@ fn every_program_runs_on_every_mesh_it_is_for() {
             for (mesh_name, _, mesh) in claimed {
                 check(&native, rule, mesh, &format!("{file} {rule_name} on {mesh_name}"));
             }
-            if class == Class::Own {
+            if program.start.is_some() {
                 check(&native, rule, &Mesh::new(), &format!("{file} {rule_name} on its own mesh"));
             }
         }
     }
 }
+
+#[test]
+fn every_program_is_laid_out_as_fmt_does() {
+    for path in files("programs") {
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert_eq!(vv::syntax::format(&text).as_deref(), Ok(text.as_str()), "{}", name(&path));
+    }
+}
+
+/// How much some programs do that could do more.
+const LITTLE: [(&str, i64); 2] = [("points", 12), ("rounds", 2)];
 
 /// `start` and three steps on both engines, as far as the mesh stays small.
 #[track_caller]
@@ -122,10 +145,12 @@ fn check(native: &Machine, rule: vv::ir::FunctionId, mesh: &Mesh, at: &str) {
     let mut mesh = mesh.clone();
     let start = program.start.map(|start| (start, 0));
     for (function, generation) in start.into_iter().chain((1..=3).map(|n| (rule, n))) {
-        if generation > 1 && (mesh.vertex_count() > 1500 || mesh.set.is_empty()) {
+        if generation > 1 && (mesh.vertex_count() > 300 || mesh.set.is_empty()) {
             break; // as large as we like, or an open mesh that shrank to nothing
         }
-        let settings = Settings { seed: 7, ..Settings::default() };
+        let little = |name: &str| LITTLE.iter().find(|row| row.0 == name).map(|row| Value::Int(row.1));
+        let params = program.params().filter_map(|(id, global, _)| Some((id, little(&global.name)?))).collect();
+        let settings = Settings { params, seed: 7, ..Settings::default() };
         let run = |failure: vv::engine::Failure| panic!("{at}: {:?}", failure.diagnostic);
         let interpreted =
             vv::engine::run(program, function, &mesh, generation, &settings, &mut Vec::new()).unwrap_or_else(run);
