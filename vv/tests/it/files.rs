@@ -573,7 +573,8 @@ fn written(mesh: &Mesh, format: Format) -> Vec<u8> {
 #[test]
 fn what_was_written_reads_back_and_is_written_the_same() {
     for (name, first) in assets() {
-        for format in Format::ALL {
+        let is_wire = faces(&first, &Stop::new()).unwrap().is_empty();
+        for format in Format::ALL.into_iter().filter(|&format| !is_wire || format == Format::Obj) {
             let bytes = written(&first, format);
             let (second, diagnostics) =
                 read(&bytes, format, &ReadOptions { strict: true, ..Default::default() }).unwrap();

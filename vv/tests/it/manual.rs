@@ -19,6 +19,7 @@ fn programs(manual: &str) -> Vec<(usize, String, String)> {
             (None, Some("out")) => fence = Some("out"),
             (None, Some(_)) => fence = Some("other"),
             (Some(_), Some(_)) => fence = None,
+            (Some("other"), None) => {}
             (Some(kind), None) => {
                 let (_, program, output) = found.last_mut().unwrap();
                 let text = if kind == "vv" { program } else { output };
