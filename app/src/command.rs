@@ -7,6 +7,7 @@
 mod inspecting;
 mod matching;
 mod menus;
+mod pair;
 mod view;
 
 use std::path::PathBuf;
@@ -26,6 +27,7 @@ use crate::session::{Purpose, Session};
 pub use inspecting::Inspect;
 pub use matching::{Match, find};
 pub use menus::{MENUS, Menu, outer, with_keys};
+pub use pair::PairAction;
 pub use view::{Toward, ViewAction};
 
 /// A wish.
@@ -155,6 +157,8 @@ pub enum Command {
     SetCamera(Camera),
     /// Something to do with the camera.
     View(ViewAction),
+    /// Something to do with two documents side by side.
+    Pair(PairAction),
     /// All of the mesh in sight.
     Fit,
     /// The picture to the clipboard.
@@ -327,6 +331,7 @@ impl Command {
             Self::Redo => ("Redo", "do again what was undone", const { &[ctrl_shift(Key::Z), ctrl(Key::Y)] }),
             Self::Text(action) => return action.describe(),
             Self::View(action) => return action.describe(),
+            Self::Pair(action) => return action.describe(),
             Self::Inspect(inspect) => return inspect.describe(),
             Self::SetReload(Reload::Typed) => ("Run as typed", "run a changed text at each pause in typing", &[]),
             Self::SetReload(Reload::Saved) => ("Run on save", "run a changed text when it is saved", &[]),
@@ -432,6 +437,7 @@ impl Command {
             Self::Choose(Purpose::ExportMesh) | Self::CopyImage | Self::SavePicture => session.frame().is_some(),
             Self::ForgetRecent => !session.recent().is_empty(),
             Self::View(action) => action.is_enabled(session),
+            Self::Pair(action) => action.is_enabled(session),
             Self::Undo => session.can_undo(),
             Self::Redo => session.can_redo(),
             Self::Text(TextAction::NextProblem | TextAction::PreviousProblem) => session.has_problems_here(),
@@ -458,6 +464,7 @@ impl Command {
             Self::Axes => style.axes,
             Self::ShowBy(surface) => style.surface == *surface,
             Self::ColorBy(quantity) => session.document.annotations.color_by == *quantity,
+            Self::Pair(action) => return action.is_on(session),
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,
@@ -527,7 +534,7 @@ impl TextAction {
 #[must_use]
 pub fn acts_while_typing(shortcut: &KeyboardShortcut) -> bool {
     let function =
-        matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F8 | Key::F11 | Key::F12);
+        matches!(shortcut.logical_key, Key::F1 | Key::F3 | Key::F4 | Key::F5 | Key::F6 | Key::F8 | Key::F11 | Key::F12);
     // Ctrl with an arrow goes from word to word.
     let walks = matches!(shortcut.logical_key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown);
     shortcut.modifiers.command && !walks || shortcut.modifiers.alt || function || shortcut.logical_key == Key::Escape

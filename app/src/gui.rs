@@ -29,6 +29,7 @@ mod marks;
 mod menu;
 mod messages;
 mod overlay;
+mod pair;
 mod palette;
 mod parameters;
 mod picture;
@@ -121,7 +122,7 @@ impl std::error::Error for WindowError {}
 pub struct App {
     session: Session,
     editor: editor::Editor,
-    viewport: viewport::Viewport,
+    pictures: pair::Pictures,
     messages: messages::Messages,
     reference: reference::Reference,
     gallery: gallery::Gallery,
@@ -169,7 +170,7 @@ impl App {
         Ok(Self {
             session,
             editor: editor::Editor::default(),
-            viewport: viewport::Viewport::new(render_state, wake)?,
+            pictures: pair::Pictures::new(&render_state, &wake)?,
             messages: messages::Messages::default(),
             reference: reference::Reference::default(),
             gallery: gallery::Gallery::default(),
@@ -249,9 +250,7 @@ impl App {
         if session.panels.timeline {
             egui::Panel::bottom("timeline").frame(theme::bar(ui)).show(ui, |ui| timeline::show(ui, session, commands));
         }
-        egui::CentralPanel::default()
-            .frame(egui::Frame::NONE)
-            .show(ui, |ui| self.viewport.show(ui, &mut self.session, commands));
+        self.pictures.show(ui, &mut self.session, commands);
     }
 
     /// After a dialog the keys belong again to whom they belonged before.

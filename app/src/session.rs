@@ -3,6 +3,7 @@
 //! [`Session::apply`] carries commands out, [`Session::poll`] takes in what has happened meanwhile. Neither waits for
 //! anything; panels read the rest.
 
+mod beside;
 mod coloring;
 mod files;
 mod generations;
@@ -17,6 +18,7 @@ mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -39,6 +41,7 @@ use crate::watch::Watch;
 use crate::worker::{Frame, Request, Ticket, Worker};
 use crate::{evaluation, library};
 
+pub use beside::Beside;
 use files::{Chooser, is_program, is_project};
 pub use inspecting::{Fault, Inspection, Walking};
 pub use problem::{Place, Problem, Problems};
@@ -51,6 +54,10 @@ const GRACE: Duration = Duration::from_millis(250);
 pub(crate) const SPEED: f64 = 2.0;
 /// How long a notice is shown.
 const NOTICE: Duration = Duration::from_secs(6);
+
+/// How many there were.
+static SESSIONS: AtomicU64 = AtomicU64::new(0);
+
 /// What a file is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
@@ -268,6 +275,9 @@ pub struct Session {
     flight: Option<view::Flight>,
     /// When a viewpoint was asked for from the clipboard.
     awaited: Option<Instant>,
+    beside: Option<Beside>,
+    /// Tells sessions apart, also after two have been swapped.
+    id: u64,
     /// Kept, because it hands out what was copied.
     clipboard: Arc<Mutex<Option<arboard::Clipboard>>>,
     wants_quit: bool,
@@ -285,14 +295,34 @@ impl Session {
         store: Option<Store>,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<Self> {
+        let mut session = Self::of(welcome(mesh.is_none() && program.is_none()), wake)?;
+        if let Some(store) = store {
+            session.remember_with(store);
+        }
+        session.ask_now();
+        if mesh.is_none() && program.is_none() {
+            session.begin();
+        }
+        if let Some(path) = program {
+            session.open_program(&path);
+        }
+        if let Some(path) = mesh {
+            session.use_mesh(MeshSource::File(path));
+        }
+        Ok(session)
+    }
+
+    /// On a document, which nothing is asked of yet.
+    fn of(document: Document, wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let limits = evaluation::machine_limits();
         let (waker, watcher) = (Arc::clone(&wake), Arc::clone(&wake));
         let preferences = Preferences::default();
         let most_memory = limits.max_bytes / 2;
         let worker = Worker::start(limits, (preferences.memory << 20).min(most_memory), move || waker())?;
         let watch = Watch::start(move || watcher())?;
-        let mut session = Self {
-            document: welcome(mesh.is_none() && program.is_none()),
+        let text_to_run = Arc::clone(&document.program.text);
+        Ok(Self {
+            document,
             theme: ThemeChoice::System,
             panels: Panels::default(),
             speed: SPEED,
@@ -325,7 +355,7 @@ impl Session {
             mesh_chosen: false,
             history: undo::History::default(),
             finding: coloring::Finding::default(),
-            text_to_run: Arc::from(""),
+            text_to_run,
             due: None,
             running: None,
             stopped: None,
@@ -341,24 +371,11 @@ impl Session {
             notice: None,
             flight: None,
             awaited: None,
+            beside: None,
+            id: SESSIONS.fetch_add(1, Ordering::Relaxed),
             clipboard: Arc::default(),
             wants_quit: false,
-        };
-        session.text_to_run = Arc::clone(&session.document.program.text);
-        if let Some(store) = store {
-            session.remember_with(store);
-        }
-        session.ask_now();
-        if mesh.is_none() && program.is_none() {
-            session.begin();
-        }
-        if let Some(path) = program {
-            session.open_program(&path);
-        }
-        if let Some(path) = mesh {
-            session.use_mesh(MeshSource::File(path));
-        }
-        Ok(session)
+        })
     }
 
     /// Carries a command out. The only place where a document changes.
@@ -368,7 +385,12 @@ impl Session {
             matches!(command, Command::Undo | Command::Redo | Command::UndoText | Command::RedoText | Command::Stop);
         let (kind, programs) = (undo::kind_of(&command), self.programs());
         let (text, state, document) = (Arc::clone(&self.document.program.text), self.state(), self.document.clone());
+        let (before, id) = (self.before(&command), self.id);
         self.carry_out(command);
+        if self.id != id {
+            return; // another document has the keys now
+        }
+        self.link(before);
         if !is_undo {
             self.record(kind, &text, state, programs);
         }
@@ -424,7 +446,7 @@ impl Session {
             Command::AnswerUnsaved(answer) => self.answer_unsaved(answer),
             // A text that nobody has said anything about is kept.
             Command::CloseDialog => self.dialog = None,
-            Command::Quit => self.unless_unsaved(command, Self::end),
+            Command::Quit => self.unless_unsaved(command, Self::quit),
 
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),
@@ -507,6 +529,7 @@ impl Session {
             Command::Axes => self.change_style(|s| s.axes = !s.axes),
             Command::SetCamera(camera) => self.set_camera(camera),
             Command::View(action) => self.change_view(action),
+            Command::Pair(action) => self.change_pair(action),
             Command::Fit => (self.fit, self.asked_to_fit) = (true, true),
             Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,
@@ -545,12 +568,15 @@ impl Session {
         if self.notice.as_ref().is_some_and(|(.., since)| since.elapsed() > NOTICE) {
             self.notice = None;
         }
+        let other = self.poll_other();
         let now = Instant::now();
+        let other = other.map(|pause| now + pause);
         let beat = self.playing.map(|last| last + self.beat());
         let grace = self.running.as_ref().filter(|_| self.due.is_some()).map(|r| r.since + GRACE);
         let notice = self.notice.as_ref().map(|(.., since)| *since + NOTICE);
         let clock = self.running.as_ref().map(|_| now + Duration::from_millis(100));
-        let next = [self.due.max(grace), beat, notice, clock, keep, flight, motion].into_iter().flatten().min()?;
+        let next =
+            [self.due.max(grace), beat, notice, clock, keep, flight, motion, other].into_iter().flatten().min()?;
         Some(next.saturating_duration_since(now).max(Duration::from_millis(5)))
     }
 

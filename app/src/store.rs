@@ -158,6 +158,14 @@ impl Store {
         Ok(Self { folder, jobs: Some(jobs), thread: Some(thread), trouble, _lock: lock, lock_path })
     }
 
+    /// Another one in the same folder, for another document.
+    ///
+    /// # Errors
+    /// As [`Store::open`].
+    pub fn sibling(&self) -> std::io::Result<Self> {
+        Self::open(&self.folder)
+    }
+
     /// What was remembered. What cannot be understood is forgotten, and that alone.
     #[must_use]
     pub fn settings(&self) -> Settings {

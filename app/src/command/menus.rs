@@ -1,6 +1,6 @@
 //! Where each command stands: the menus, which the palette, the cheat sheet and the keys go by as well.
 
-use super::{Command, Inspect, Panel, Reload, TextAction, ThemeChoice, Toward, ViewAction};
+use super::{Command, Inspect, PairAction, Panel, Reload, TextAction, ThemeChoice, Toward, ViewAction};
 use crate::annotate::Quantity;
 use crate::camera::{Side, Up};
 use crate::navigation::{Preset, Turning};
@@ -85,6 +85,13 @@ pub const MENUS: &[Menu] = &[
                 Command::SetTheme(ThemeChoice::Light),
                 Command::SetTheme(ThemeChoice::Dark),
             ],
+        ],
+    },
+    Menu {
+        title: "Compare",
+        groups: &[
+            &[Command::Pair(PairAction::Compare), Command::Pair(PairAction::Switch), Command::Pair(PairAction::Close)],
+            &[Command::Pair(PairAction::LinkViews), Command::Pair(PairAction::LinkSteps)],
         ],
     },
     Menu {
@@ -183,7 +190,11 @@ pub const MENUS: &[Menu] = &[
 /// The menu that another one is part of; `None` for those that stand in the bar.
 #[must_use]
 pub fn outer(title: &str) -> Option<&'static str> {
-    matches!(title, "Move" | "Navigation").then_some("Camera")
+    match title {
+        "Move" | "Navigation" => Some("Camera"),
+        "Compare" => Some("View"),
+        _ => None,
+    }
 }
 
 /// The commands that keys mean.

@@ -46,10 +46,10 @@ impl Viewport {
         Ok(Self { picture: Picture::new(state, wake)?, hands: Hands::default() })
     }
 
-    /// Shows it. Takes [`Session::fit`].
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, commands: &mut Vec<Command>) {
+    /// Shows it, called `name` for those who cannot see it. Takes [`Session::fit`].
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, name: &str, commands: &mut Vec<Command>) {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         let frame = session.frame().cloned();
         let Some(frame) = frame else {
             empty(ui, rect, session);

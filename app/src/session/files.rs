@@ -26,11 +26,16 @@ pub(super) struct Chooser {
 
 impl Session {
     pub(super) fn unless_unsaved(&mut self, command: Command, action: impl FnOnce(&mut Self)) {
-        if self.is_unsaved() || self.is_orphan() {
+        if self.would_lose() {
             self.dialog = Some(Dialog::Unsaved { then: Box::new(command) });
         } else {
             action(self);
         }
+    }
+
+    /// Whether there is text that is in no file.
+    pub(super) fn would_lose(&self) -> bool {
+        self.is_unsaved() || self.is_orphan()
     }
 
     /// Whether the program's file is gone, so that the text stands in the editor alone.

@@ -36,15 +36,20 @@ pub(super) struct OpenProject {
 
 impl Session {
     pub(super) fn remember_with(&mut self, store: Store) {
-        let Settings { theme, reload, panels, speed, recent, navigation, preferences, others } = store.settings();
+        self.adopt(store.settings());
+        self.orphan = store.orphan();
+        self.dialog = self.orphan.as_ref().map(|orphan| Dialog::Recover { name: orphan.project.name.clone() });
+        self.store = Some(store);
+    }
+
+    /// Takes settings over, which are on the disk or on their way there.
+    pub(super) fn adopt(&mut self, settings: Settings) {
+        self.keeping.settings = Some(settings.clone());
+        let Settings { theme, reload, panels, speed, recent, navigation, preferences, others } = settings;
         self.navigation = navigation;
         (self.theme, self.reload, self.panels, self.speed, self.recent) = (theme, reload, panels, speed, recent);
         self.keeping.others = others;
         self.prefer(preferences);
-        self.orphan = store.orphan();
-        self.dialog = self.orphan.as_ref().map(|orphan| Dialog::Recover { name: orphan.project.name.clone() });
-        self.keeping.settings = Some(self.settings());
-        self.store = Some(store);
     }
 
     /// What the window opens with where no file is given: as the user likes it, unless there is something to bring back.
@@ -71,11 +76,18 @@ impl Session {
 
     /// The window closes: there is nothing to bring back, but to begin with next time.
     pub(super) fn end(&mut self) {
+        self.leave();
+        if let Some(store) = &self.store {
+            store.keep_last(Project::of(&self.document));
+        }
+    }
+
+    /// This document closes, without anything to bring back.
+    pub(super) fn leave(&mut self) {
         self.wants_quit = true;
         self.keeping.document = None;
         if let Some(store) = &self.store {
             store.keep(None);
-            store.keep_last(Project::of(&self.document));
         }
     }
 
@@ -127,7 +139,13 @@ impl Session {
         self.recent = settings.recent;
     }
 
-    fn settings(&self) -> Settings {
+    /// Takes over what has the keys no more.
+    pub(super) fn adopt_from(&mut self, other: &Self) {
+        self.adopt(other.settings());
+        self.keeping.settings.clone_from(&other.keeping.settings);
+    }
+
+    pub(super) fn settings(&self) -> Settings {
         Settings {
             theme: self.theme,
             reload: self.reload,

@@ -26,6 +26,7 @@ const SHIFT: f64 = 0.2;
 const ZOOM: f64 = 1.25;
 
 /// The camera on its way.
+#[derive(Clone)]
 pub(super) struct Flight {
     from: Camera,
     to: Camera,

@@ -1,5 +1,6 @@
 //! The window, driven as a user drives it: by names, keys and the pointer.
 
+mod compare;
 mod display;
 mod editor;
 mod gallery;
