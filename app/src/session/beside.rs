@@ -38,6 +38,7 @@ impl Beside {
 /// What links looked like before a command.
 pub(super) struct Before {
     mesh: crate::document::MeshSource,
+    fit: bool,
     /// What the other document does as well.
     echo: Option<Command>,
 }
@@ -89,7 +90,7 @@ impl Session {
         other.store = self.store.as_ref().and_then(|store| store.sibling().ok());
         other.text_to_run = std::sync::Arc::clone(&self.text_to_run);
         other.mesh_chosen = true;
-        other.fit = false;
+        other.fit = true; // the picture is narrower now
         other.watch_files();
         other.ask_now();
         // What is computed already is seen at once.
@@ -150,7 +151,7 @@ impl Session {
             let same_play = *command != Command::Play || beside.other.is_playing() == self.is_playing();
             same_play && command.is_enabled(&beside.other)
         });
-        Before { mesh: self.document.mesh.clone(), echo: possible.map(|_| command.clone()) }
+        Before { mesh: self.document.mesh.clone(), fit: self.fit, echo: possible.map(|_| command.clone()) }
     }
 
     /// What the other document does as well, after a command.
@@ -160,7 +161,7 @@ impl Session {
             beside.other.apply(command);
         }
         if beside.views_linked && self.document.mesh == before.mesh && !self.asked_to_fit {
-            self.fit = false; // another program on the same mesh is looked at as the one before
+            self.fit = before.fit; // another program on the same mesh is looked at as the one before
         }
         self.link_views();
     }
