@@ -25,13 +25,14 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.take_available_space();
         return;
     }
+    let selected = session.selected();
     let height = ui.text_style_height(&TextStyle::Body).max(ui.spacing().interact_size.y - 4.0);
     let area = ScrollArea::vertical().id_salt("findings").auto_shrink(Vec2b::FALSE);
     area.show_rows(ui, height, lines.len(), |ui, range| {
         for line in &lines[range] {
             match line {
                 Line::Title(group) => title(ui, group, height),
-                Line::Row(row) => entry(ui, session, row, height, commands),
+                Line::Row(row) => entry(ui, selected.contains(&row.item), row, height, commands),
                 Line::More(count) => {
                     ui.weak(format!("      and {} more", grouped(*count)));
                 }
@@ -62,16 +63,15 @@ fn title(ui: &mut Ui, group: &Group, height: f32) {
     ui.horizontal(|ui| {
         ui.set_height(height);
         let color = if group.kind.is_wrong() { ui.visuals().error_fg_color } else { ui.visuals().text_color() };
-        let text = format!("{} {}", grouped(group.count), group.kind.title());
+        let text = format!("{} {}", grouped(group.count), group.kind.title(group.count));
         ui.label(RichText::new(text).color(color).strong()).on_hover_text(group.kind.explanation());
     });
 }
 
-fn entry(ui: &mut Ui, session: &Session, row: &Row, height: f32, commands: &mut Vec<Command>) {
+fn entry(ui: &mut Ui, chosen: bool, row: &Row, height: f32, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.set_height(height);
         ui.add_space(14.0);
-        let chosen = session.selected().contains(&row.item);
         let text = RichText::new(&row.text);
         let response = ui.add(Button::selectable(chosen, text).truncate());
         if response.hovered()

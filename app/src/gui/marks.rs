@@ -173,6 +173,9 @@ fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking) {
         if walk.end == End::Closed && walk.arrows() > 2 { at.lerp(middle, 0.1) } else { at }
     };
     let last = walking.at.min(path.len() - 1);
+    if walk.end == End::Closed && last == walk.arrows() {
+        polygon(overlay, mesh, &path[..last], ink);
+    }
     for i in 0..last {
         let width = if i + 1 == last { 4.0 } else { 2.2 };
         overlay.arrow(inside(path[i]), inside(path[i + 1]), 7.0, width, ink);
@@ -180,9 +183,12 @@ fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking) {
     for &v in &path[..=last] {
         overlay.disc(mesh.position(v), 3.5, ink);
     }
-    // The three vertices of the rule have their names.
+    // The three vertices of the rule have their names, outside of the face.
+    let center = overlay.see(middle).map(|spot| spot.at);
     for &v in &path[last.saturating_sub(2)..=last] {
-        overlay.label(mesh.position(v), vec2(0.0, -15.0), &v.to_string(), ink);
+        let out = overlay.see(mesh.position(v)).zip(center).map(|(spot, center)| spot.at - center);
+        let out = out.filter(|out| out.length() > 1.0).map_or(vec2(0.0, -1.0), |out| out.normalized());
+        overlay.label(mesh.position(v), out * vec2(20.0, 17.0), &v.to_string(), ink);
     }
     let ended = walking.at == walk.arrows();
     if ended
@@ -205,7 +211,7 @@ fn problems(overlay: &Overlay<'_>, mesh: &Mesh, findings: &Findings) {
         for Row { item, one_way, .. } in group.rows.iter().take(MARKED) {
             match (one_way, item) {
                 (&Some([from, to]), _) => {
-                    overlay.arrow(mesh.position(from), mesh.position(to), 4.0, 2.5, color);
+                    overlay.arrow(mesh.position(from), mesh.position(to), 11.0, 2.5, color);
                     overlay.disc(mesh.position(from), 3.0, color);
                 }
                 (None, &Item::Vertex(v)) => overlay.circle(mesh.position(v), 7.0, 2.0, color),

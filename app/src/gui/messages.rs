@@ -127,6 +127,11 @@ fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<C
 
 /// Evidence, hints and fixes; also in the editor's tooltip.
 pub fn details(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<Command>) {
+    for (place, text) in &problem.labels {
+        let file = if place.own { String::new() } else { format!("{}:", place.file) };
+        let text = format!("{file}line {}: {text}", place.start.line);
+        text_with_vertices(ui, session, commands, &text, problem.generation);
+    }
     for fact in &problem.diagnostic.evidence {
         text_with_vertices(ui, session, commands, fact, problem.generation);
     }

@@ -102,6 +102,11 @@ impl Viewport {
                 centered(ui, rect, &["there is no picture", &error.to_string()]);
             }
         }
+        if session.stale().is_some() {
+            let veil = ui.visuals().panel_fill.gamma_multiply(0.45);
+            ui.painter().rect_filled(rect, 0.0, veil);
+        }
+        let _span = trace::span("window: marks");
         let inks = Overlay::new(ui, rect, camera, &frame.scene, &style);
         let spread = camera.spread(f64::from(2.0 * clicks::NEAR / rect.height()));
         clicks::take(ui, &response, &inks, session, &frame, spread, commands);
@@ -129,7 +134,6 @@ fn theme_of(ui: &Ui) -> Theme {
 fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
     let visuals = ui.visuals().clone();
     if let Some(stale) = session.stale() {
-        ui.painter().rect_filled(rect, 0.0, visuals.panel_fill.gamma_multiply(0.45));
         let (color, title, text) = match stale {
             Stale::Failed(message) => (visuals.error_fg_color, "stale: last good result", message.as_str()),
             Stale::Stopped => (visuals.warn_fg_color, "stale: stopped", "what is wanted was not computed"),

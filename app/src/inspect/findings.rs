@@ -11,7 +11,7 @@ use vv::stop::{Stop, Stopped};
 
 use super::measure::FaceMeasure;
 use super::selection::Item;
-use super::walk::Walk;
+use super::walk::{End, Walk};
 
 /// Findings of a kind that are listed; all are counted.
 pub const LISTED: usize = 100;
@@ -44,9 +44,21 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What several of it are called.
+    /// What so many of it are called.
     #[must_use]
-    pub fn title(self) -> &'static str {
+    pub fn title(self, count: usize) -> &'static str {
+        if count == 1 {
+            return match self {
+                Self::Incomplete => "incomplete neighbour",
+                Self::Broken => "broken orbit",
+                Self::Outside => "neighbour outside the set",
+                Self::Damaged => "damaged vertex",
+                Self::Unclosed => "corner of the boundary without gap",
+                Self::Isolated => "isolated vertex",
+                Self::Degenerate => "degenerate face",
+                Self::NotPlane => "face that is not plane",
+            };
+        }
         match self {
             Self::Incomplete => "incomplete neighbours",
             Self::Broken => "broken orbits",
@@ -191,7 +203,12 @@ impl Findings {
             let names: Vec<String> = walk.path.iter().rev().take(6).rev().map(ToString::to_string).collect();
             let before = if walk.path.len() > 6 { "… " } else { "" };
             let first = [walk.path[0], walk.path[1]];
-            Row { walk: Some(first), ..row(format!("{before}{} breaks at {to}", names.join(" → ")), vertex(to)) }
+            let why = match walk.end {
+                End::Outside { .. } => format!("{to} is not in the set"),
+                _ => format!("{to} does not name {from}"),
+            };
+            let text = format!("orbit {before}{}: {why}", names.join(" → "));
+            Row { walk: Some(first), ..row(text, vertex(to)) }
         });
         let outside = findings.iter().filter_map(|f| match *f {
             Finding::Outside { from, to } => Some((from, to)),

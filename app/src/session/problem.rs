@@ -14,6 +14,8 @@ pub struct Problem {
     pub diagnostic: Diagnostic,
     /// Where; `None` for what concerns a mesh or a step as a whole.
     pub place: Option<Place>,
+    /// Other places that explain this one, with what is said there.
+    pub labels: Vec<(Place, String)>,
     /// The generation whose vertices it names, if any: of a step that failed, the one before.
     pub generation: Option<u64>,
 }
@@ -80,6 +82,13 @@ fn located(diagnostics: &[Diagnostic], sources: &Sources, generation: Option<u64
         let range = span.start as usize..span.end as usize;
         Some(Place { file: crate::document::file_name(file.as_ref()), own: span.file == FileId::MAIN, start, range })
     };
-    let problem = |d: &Diagnostic| Problem { diagnostic: d.clone(), place: d.span.and_then(place), generation };
+    let labels =
+        |d: &Diagnostic| d.labels.iter().filter_map(|(span, text)| Some((place(*span)?, text.clone()))).collect();
+    let problem = |d: &Diagnostic| Problem {
+        diagnostic: d.clone(),
+        place: d.span.and_then(place),
+        labels: labels(d),
+        generation,
+    };
     diagnostics.iter().map(problem).collect()
 }

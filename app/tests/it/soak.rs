@@ -4,11 +4,12 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use app::camera::Camera;
-use app::command::{Answer, Command, MENUS, Panel, Reload, TextAction, ThemeChoice};
+use app::command::{Answer, Command, Inspect, MENUS, Panel, Reload, TextAction, ThemeChoice};
 use app::document::MeshSource;
+use app::inspect::selection::Item;
 use app::session::Session;
 use vv::builtins::Random;
-use vv::mesh::Value;
+use vv::mesh::{Value, Vertex};
 
 const TEXTS: [&str; 5] = [
     "void f(mesh& S) { forall v in S v$pos *= 0.5; }",
@@ -22,7 +23,7 @@ const TEXTS: [&str; 5] = [
 fn command(random: &mut Random) -> Command {
     let mut below = |n: u64| random.bits() % n;
     let text = |i: u64| -> Arc<str> { TEXTS[i as usize % TEXTS.len()].into() };
-    match below(30) {
+    match below(34) {
         0 | 1 => Command::Step,
         2 => Command::Back,
         3 => Command::Rewind,
@@ -47,6 +48,7 @@ fn command(random: &mut Random) -> Command {
         25 => Command::AnswerUnsaved(Answer::Discard),
         26 => Command::CloseDialog,
         27 => Command::Run,
+        29..=32 => Command::Inspect(inspect(random)),
         28 => Command::SetReload([Reload::Typed, Reload::Saved, Reload::ByHand][below(3) as usize]),
         _ => match below(8) {
             0 => Command::Toggle(Panel::Timeline),
@@ -61,12 +63,40 @@ fn command(random: &mut Random) -> Command {
     }
 }
 
+/// Looks at vertices that may be there or not.
+fn inspect(random: &mut Random) -> Inspect {
+    let mut below = |n: u64| random.bits() % n;
+    let mut vertex = || Vertex::from_index((below(9) * below(9)) as usize).unwrap();
+    let (p, q) = (vertex(), vertex());
+    match below(14) {
+        0 | 1 => Inspect::Select(Item::Vertex(p)),
+        2 => Inspect::Select(Item::Edge([p, q])),
+        3 => Inspect::Select(Item::Face([p, q])),
+        4 => Inspect::Toggle(Item::Vertex(p)),
+        5 => Inspect::Toggle(Item::Face([p, q])),
+        6 => Inspect::SelectNumbers(vec![below(40), below(40)]),
+        7 => Inspect::Fly,
+        8 => Inspect::Walk([p, q]),
+        9 => Inspect::WalkOn,
+        10 => Inspect::WalkBack,
+        11 => Inspect::PlayWalk,
+        12 => Inspect::Point(Some(p)),
+        _ => Inspect::ListProblems,
+    }
+}
+
 #[track_caller]
 fn in_order(session: &Session, after: &Command) {
     let document = &session.document;
     assert!(session.shown_generation() < 100, "{after:?}");
     if let Some(frame) = session.frame() {
         assert!(frame.statistics.valid, "{after:?}");
+        // What is selected is there, and the walk leads through what is there.
+        assert!(session.selected().iter().all(|item| item.is_in(&frame.mesh)), "{after:?}");
+        if let Some(walking) = &session.inspection.walk {
+            assert!((1..=walking.walk.arrows()).contains(&walking.at), "{after:?}");
+            assert!(frame.mesh.set.contains(walking.walk.path[0]), "{after:?}");
+        }
     }
     let Camera { pivot, distance, .. } = document.camera;
     assert!(pivot.is_finite() && distance > 0.0, "{after:?}");

@@ -82,6 +82,7 @@ fn attempt(
     output: &mut dyn Output,
     trace: Option<Trace>,
 ) -> Run<Mesh> {
+    let before = mesh;
     let mut mesh = mesh.clone();
     let columns = Columns::declare(program, &mut mesh);
     let members = std::mem::take(&mut mesh.set);
@@ -113,7 +114,7 @@ fn attempt(
         unaccounted: 0,
         trace,
     };
-    machine.run(function)
+    machine.run(function, before)
 }
 
 /// Where the program's properties lie in the mesh.
@@ -219,11 +220,13 @@ struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    fn run(mut self, function: FunctionId) -> Run<Mesh> {
+    fn run(mut self, function: FunctionId, before: &Mesh) -> Run<Mesh> {
         self.compute_globals()?;
         if let Some(function) = self.program.function(function) {
             self.stack.push(Slot::Set(0));
-            self.open(function, None, Heights { stack: 0, sets: 1, rings: 0 })?;
+            if let Err(fault) = self.open(function, None, Heights { stack: 0, sets: 1, rings: 0 }) {
+                return Err(self.tell_what_was(fault, before));
+            }
         }
         let mut mesh = self.mesh;
         if let Some(set) = self.sets.into_iter().next() {

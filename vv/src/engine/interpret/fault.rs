@@ -2,12 +2,15 @@
 
 use super::Machine;
 use crate::diagnostic::Diagnostic;
-use crate::engine::{Failure, FailureKind};
-use crate::mesh::Vertex;
+use crate::engine::{Failure, FailureKind, text};
+use crate::mesh::{Mesh, Vertex};
 use crate::source::Span;
 
 /// Open calls that a message lists at either end; those between are counted.
 const CALLS_SHOWN: usize = 8;
+
+/// Vertices of a message of which it is told how they were before the step.
+const VERTICES_TOLD: usize = 4;
 
 /// A failure on its way out, and what to do about it.
 pub(super) struct Fault {
@@ -57,6 +60,26 @@ impl Machine<'_> {
         let depth = self.frames.len().saturating_sub(1);
         let diagnostic = with_calls(Diagnostic::error(span, message), depth, open);
         Box::new(Fault { failure: Failure { kind, diagnostic: Box::new(diagnostic) }, of_null: false })
+    }
+
+    /// Adds how the vertices of a message were before the step, where the step has changed their rings or made them: what
+    /// is seen of the mesh is from then.
+    #[cold]
+    pub(super) fn tell_what_was(&self, mut fault: Box<Fault>, before: &Mesh) -> Box<Fault> {
+        let vertices = fault.failure.diagnostic.vertices.clone();
+        // Where there was nothing, all is new.
+        for v in vertices.into_iter().take(VERTICES_TOLD).filter(|_| before.vertex_count() > 0) {
+            if v.index() >= before.vertex_count() {
+                fault = fault.evidence(format!("{v} was made in this step"));
+            } else if before.ring(v) != self.mesh.ring(v) {
+                let was = format!("ring of {v}: {}", text::ring(before.ring(v), None));
+                // Often the old ring was quoted, which says it.
+                if !fault.failure.diagnostic.evidence.iter().any(|fact| fact.ends_with(&was)) {
+                    fault = fault.evidence(format!("before the step, {was}"));
+                }
+            }
+        }
+        fault
     }
 }
 

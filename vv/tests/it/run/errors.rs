@@ -62,3 +62,31 @@ fn what_a_failing_run_prints_is_printed_once() {
          about v1",
     );
 }
+
+#[test]
+fn an_error_tells_how_the_vertices_it_names_were_before_the_step() {
+    super::check(
+        &format!(
+            "{}void step(mesh& S) {{\n  forall p in S {{\n    vertex q = any in p;\n    erase q from p;\n    \
+             vertex r = nextto q in p;\n    print(r$pos);\n  }}\n}}",
+            super::SQUARE
+        ),
+        "error 13:11 `r$pos`: null has no position
+         at 12:16 `nextto q in p`: `nextto q in p` is null here: v2 is not in the ring of v1
+         = ring of v1: v3 v4 ∅
+         = before the step, ring of v1: v2 v3 v4 ∅
+         about v1 v2",
+    );
+}
+
+#[test]
+fn an_error_tells_which_vertices_are_new() {
+    super::check(
+        &format!("{}void step(mesh& S) {{ vertex x; make {{x}} nb_of x; }}", super::SQUARE),
+        "error 8:38 `x`: v5 cannot be its own neighbour
+         = to be made the ring of v5: v5
+         = ring of v5: empty
+         = v5 was made in this step
+         about v5",
+    );
+}

@@ -82,6 +82,7 @@ fn loop_explains_a_boundary() {
         "error 35:25 ``(nextto q in `p)$pos`: null has no position
          at 35:26 `(nextto q in `p)`: `nextto q in `p` is null here: a hole follows v1 in the old ring of v2
          = old ring of v2: v3 v1 ∅
+         = before the step, ring of v1: v2 v3 v4 ∅
          ? v2 lies on a boundary: test `nextto q in `p == null` first
          about v2 v1",
     );
@@ -94,6 +95,7 @@ fn butterfly_explains_a_boundary() {
         "error 31:19 ``(nextto q in `p)$pos`: null has no position
          at 31:20 `(nextto q in `p)`: `nextto q in `p` is null here: a hole follows v1 in the old ring of v2
          = old ring of v2: v3 v1 ∅
+         = before the step, ring of v1: v2 v3 v4 ∅
          ? v2 lies on a boundary: test `nextto q in `p == null` first
          about v2 v1",
     );
@@ -106,6 +108,8 @@ fn sqrt3_explains_a_boundary() {
         "error 39:50 `y`: null has no neighbours
          at 38:18 `prevto q in p`: `prevto q in p` is null here: a hole precedes v2 in the ring of v1
          = ring of v1: v2 v5 v3 v6 v4 ∅
+         = before the step, ring of v1: v2 v3 v4 ∅
+         = before the step, ring of v2: v3 v1 ∅
          ? v1 lies on a boundary: test `prevto q in p == null` first
          about v1 v2",
     );
