@@ -2,7 +2,7 @@
 //! is rare (longer rings, gaps, edge values, rings that must move) is left to the runtime.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, Endianness, InstBuilder, MemFlagsData, Value, types};
+use cranelift_codegen::ir::{Block, InstBuilder, MemFlagsData, Value, types};
 
 use super::known::{Bounds, Fact, Found, Key};
 use super::{Symbol, Translated, Translator};
@@ -174,37 +174,6 @@ impl<'p> Translator<'_, 'p> {
         self.load_number(flags, address, 0)
     }
 
-    /// Slots from an address on, which nothing aligns.
-    pub(super) fn lanes(&mut self, start: Value, width: i64, flags: MemFlagsData) -> Vec<Value> {
-        let flags = unaligned(flags);
-        (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32)).collect()
-    }
-
-    /// Bytes from the first lane to the first one that holds `x`, i64; at least all their bytes if none does.
-    pub(super) fn first_match(&mut self, lanes: &[Value], x: Value) -> Value {
-        let x = self.b.ins().splat(types::I32X4, x);
-        let mut equal: Vec<Value> = lanes.iter().map(|&lane| self.b.ins().icmp(IntCC::Equal, x, lane)).collect();
-        // How many bits stand for a slot becomes how many bytes: 4 = 1 << 2 = 2 << 1.
-        let mut shift = 2;
-        if equal.len() > 1 {
-            equal = self.narrowed(&equal);
-            shift = 1;
-        }
-        if equal.len() > 1 {
-            equal = self.narrowed(&equal);
-            shift = 2;
-        }
-        let lanes = if shift == 1 { self.b.ins().bitcast(types::I8X16, little_endian(), equal[0]) } else { equal[0] };
-        let bits = self.b.ins().vhigh_bits(types::I64, lanes);
-        let first = self.b.ins().ctz(bits);
-        self.b.ins().ishl_imm_u(first, shift)
-    }
-
-    /// Lanes of half the width, two by two.
-    fn narrowed(&mut self, lanes: &[Value]) -> Vec<Value> {
-        lanes.chunks(2).map(|pair| self.b.ins().snarrow(pair[0], pair[pair.len() - 1])).collect()
-    }
-
     /// Rings up to these lengths are searched and edited in line, four slots at a time. A refinement that doubles
     /// valences before it halves them again meets the longest.
     pub(super) fn widths(&self) -> &'static [i64] {
@@ -366,14 +335,4 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(done);
         results[0]
     }
-}
-
-/// A kind of memory, for loads and stores of more than one slot.
-pub(super) fn unaligned(flags: MemFlagsData) -> MemFlagsData {
-    MemFlagsData::new().with_notrap().with_alias_region(flags.alias_region())
-}
-
-/// The order of lanes in memory, for looking at them as lanes of another width.
-pub(super) fn little_endian() -> MemFlagsData {
-    MemFlagsData::new().with_endianness(Endianness::Little)
 }

@@ -3,7 +3,7 @@
 use cranelift_codegen::ir::{InstBuilder, MemFlagsData, StackSlotData, StackSlotKind, Type as ClifType, Value, types};
 use cranelift_frontend::Variable;
 
-use super::ring::unaligned;
+use super::lanes::unaligned;
 use super::{Frame, Refused, Storage, Translated, Translator, Val, clif_types, wrong_type};
 use crate::engine::native::context;
 use crate::engine::native::effects::Keeping;

@@ -1,0 +1,127 @@
+//! Slots four at a time, in lanes of vectors: loaded, searched, compared and shifted.
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{ConstantData, Endianness, InstBuilder, MemFlagsData, Value, types};
+
+use super::Translator;
+use crate::engine::native::context;
+
+impl Translator<'_, '_> {
+    /// Slots from an address on, which nothing aligns.
+    pub(super) fn lanes(&mut self, start: Value, width: i64, flags: MemFlagsData) -> Vec<Value> {
+        let flags = unaligned(flags);
+        (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32)).collect()
+    }
+
+    /// Bytes from the first lane to the first one that holds `x`, i64; at least all their bytes if none does.
+    pub(super) fn first_match(&mut self, lanes: &[Value], x: Value) -> Value {
+        let x = self.b.ins().splat(types::I32X4, x);
+        let mut equal: Vec<Value> = lanes.iter().map(|&lane| self.b.ins().icmp(IntCC::Equal, x, lane)).collect();
+        // How many bits stand for a slot becomes how many bytes: 4 = 1 << 2 = 2 << 1.
+        let mut shift = 2;
+        if equal.len() > 1 {
+            equal = self.narrowed(&equal);
+            shift = 1;
+        }
+        if equal.len() > 1 {
+            equal = self.narrowed(&equal);
+            shift = 2;
+        }
+        let lanes = if shift == 1 { self.b.ins().bitcast(types::I8X16, little_endian(), equal[0]) } else { equal[0] };
+        let bits = self.b.ins().vhigh_bits(types::I64, lanes);
+        let first = self.b.ins().ctz(bits);
+        self.b.ins().ishl_imm_u(first, shift)
+    }
+
+    /// Lanes of half the width, two by two.
+    fn narrowed(&mut self, lanes: &[Value]) -> Vec<Value> {
+        lanes.chunks(2).map(|pair| self.b.ins().snarrow(pair[0], pair[pair.len() - 1])).collect()
+    }
+
+    /// `first`, `first + 1`, …
+    pub(super) fn lane_numbers(&mut self, first: u32) -> Value {
+        let bytes: Vec<u8> = (first..first + 4).flat_map(u32::to_le_bytes).collect();
+        let constant = self.b.func.dfg.constants.insert(ConstantData::from(bytes));
+        self.b.ins().vconst(types::I32X4, constant)
+    }
+
+    /// How many bytes stand before each of the slots from `first` on. They are loaded, for Cranelift would keep constants
+    /// on the stack.
+    pub(super) fn lane_offsets(&mut self, first: u32) -> Value {
+        let (flags, context) = (unaligned(self.regions.context), self.context);
+        self.b.ins().load(types::I32X4, flags, context, context::OFFSETS + 4 * first as i32)
+    }
+
+    /// An offset in bytes in all lanes.
+    pub(super) fn lanes_of_offset(&mut self, offset: Value) -> Value {
+        let offset = self.b.ins().ireduce(types::I32, offset);
+        self.b.ins().splat(types::I32X4, offset)
+    }
+
+    /// Four slots, from one on; any slots of the four at the end for those before the first and behind the last. They are
+    /// put together and not loaded: a load would wait for the stores of an edit just before.
+    pub(super) fn four(&mut self, lanes: &[Value], first: i64) -> Value {
+        let four = first.max(0) as usize / 4;
+        let (low, high) = match (first, lanes.get(four + 1)) {
+            (..0, _) | (_, None) => (lanes[four], lanes[four]),
+            (_, Some(&high)) => (lanes[four], high),
+        };
+        let by = 4 * first.rem_euclid(4) as u8;
+        if by == 0 {
+            return low;
+        }
+        let [low, high] = [low, high].map(|x| self.b.ins().bitcast(types::I8X16, little_endian(), x));
+        let mask = self.b.func.dfg.immediates.push(ConstantData::from((by..by + 16).collect::<Vec<u8>>()));
+        let both = self.b.ins().shuffle(low, high, mask);
+        self.b.ins().bitcast(types::I32X4, little_endian(), both)
+    }
+
+    /// Lane i becomes lane i + by, once round.
+    fn rotated(&mut self, lanes: Value, by: u8) -> Value {
+        let bytes = self.b.ins().bitcast(types::I8X16, little_endian(), lanes);
+        let mask: Vec<u8> = (0..16).map(|i| (i + 4 * by) % 16).collect();
+        let mask = self.b.func.dfg.immediates.push(ConstantData::from(mask));
+        let rotated = self.b.ins().shuffle(bytes, bytes, mask);
+        self.b.ins().bitcast(types::I32X4, little_endian(), rotated)
+    }
+
+    /// Comparisons that put each lane beside each other one.
+    pub(super) fn pairs_of_lanes(&mut self, lanes: &[Value]) -> Vec<(Value, Value)> {
+        let mut pairs = Vec::new();
+        for (k, &x) in lanes.iter().enumerate() {
+            pairs.extend([1, 2].map(|by| (x, self.rotated(x, by))));
+            for &y in &lanes[..k] {
+                pairs.extend([0, 1, 2, 3].map(|by| (x, if by == 0 { y } else { self.rotated(y, by) })));
+            }
+        }
+        pairs
+    }
+
+    /// Whether any of the lanes is equal in any of the pairs.
+    pub(super) fn any_equal(&mut self, pairs: &[(Value, Value)]) -> Value {
+        let mut same = None;
+        for &(x, y) in pairs {
+            let equal = self.b.ins().icmp(IntCC::Equal, x, y);
+            same = Some(same.map_or(equal, |same| self.b.ins().bor(same, equal)));
+        }
+        match same {
+            Some(same) => self.b.ins().vany_true(same),
+            None => self.b.ins().iconst(types::I8, 0),
+        }
+    }
+}
+
+/// The first slots of the fours that `width` slots are edited by; where two overlap, both come to the same.
+pub(super) fn fours(width: i64) -> impl Iterator<Item = u32> {
+    (0..width as u32).step_by(4).map(move |first| first.min((width as u32).saturating_sub(4)))
+}
+
+/// A kind of memory, for loads and stores of more than one slot.
+pub(super) fn unaligned(flags: MemFlagsData) -> MemFlagsData {
+    MemFlagsData::new().with_notrap().with_alias_region(flags.alias_region())
+}
+
+/// The order of lanes in memory, for looking at them as lanes of another width.
+pub(super) fn little_endian() -> MemFlagsData {
+    MemFlagsData::new().with_endianness(Endianness::Little)
+}
