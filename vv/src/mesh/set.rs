@@ -135,7 +135,13 @@ impl VertexSet {
         }
         let behind = self.0.order.last() < other.0.order.first();
         if behind && self.0.places.is_none() && other.0.places.is_none() {
-            Arc::make_mut(&mut self.0).order.extend_from_slice(&other.0.order);
+            match Arc::get_mut(&mut self.0) {
+                Some(members) => members.order.extend_from_slice(&other.0.order),
+                None => {
+                    let order = [self.order(), other.order()].concat();
+                    self.0 = Arc::new(Members { order, places: None });
+                }
+            }
             return;
         }
         for v in other.iter() {

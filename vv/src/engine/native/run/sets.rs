@@ -14,12 +14,27 @@ impl Run<'_> {
         Some(self.sets.get(set as usize)?.members.clone())
     }
 
+    /// Makes room for more members of a set that compiled code pushes to: twice as many, or at once for all that there can
+    /// be where that is large, for copying it again and again would touch fresh memory each time.
+    fn grow_set(&mut self, set: u32) -> Option<()> {
+        let vertices = self.mesh.arrays().heads.capacity();
+        let len = self.sets.get(set as usize)?.members.len();
+        let all = vertices.saturating_sub(len);
+        let more = if len >= LARGE && all > 0 && self.allows(4 * all) { all } else { len.max(256) };
+        self.allows(4 * more).then_some(())?;
+        self.set_mut(set)?.members.ascending()?.reserve_exact(more);
+        Some(())
+    }
+
     fn set_mut(&mut self, set: u32) -> Option<&mut Set> {
         self.sets.get_mut(set as usize)
     }
 }
 
 const NO_SET: u32 = u32::MAX;
+
+/// So many members are many.
+const LARGE: usize = 1 << 14;
 
 /// A new variable of type mesh.
 pub(super) extern "C" fn set_new(context: *mut Context) -> u32 {
@@ -79,12 +94,8 @@ pub(super) extern "C" fn set_add(context: *mut Context, set: u32, v: u32) -> u32
     guard(context, status::REPEAT, |run| {
         let members = &mut run.set_mut(set)?.members;
         members.add(vertex(v)?);
-        if let Some(order) = members.ascending()
-            && order.len() == order.capacity()
-        {
-            // Compiled code pushes while there is room.
-            order.reserve(order.len().max(256));
-            run.allows(0).then_some(())?;
+        if members.ascending().is_some_and(|order| order.len() == order.capacity()) {
+            run.grow_set(set)?;
         }
         Some(status::DONE)
     })
