@@ -4,6 +4,7 @@ mod check;
 mod convert;
 mod diff;
 mod fmt;
+mod guard;
 mod info;
 mod input;
 mod look;

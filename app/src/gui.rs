@@ -48,6 +48,7 @@ mod widgets;
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use eframe::{egui, egui_wgpu};
 
@@ -81,21 +82,32 @@ pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>, viewpoint: Option<Vi
         ..Default::default()
     };
     // A window that cannot remember is better than none.
+    let mut trouble = None;
     let store = Store::user_folder().and_then(|folder| match Store::open(&folder) {
         Ok(store) => Some(store),
         Err(error) => {
-            eprintln!("warning: nothing is remembered: {}: {}", folder.display(), crate::files::sentence(&error));
+            let what = "nothing is remembered, and nothing kept for the case of a crash";
+            let text = format!("{what}: {}: {}", folder.display(), crate::files::sentence(&error));
+            eprintln!("warning: {text}");
+            trouble = Some(text);
             None
         }
     });
-    let create: eframe::AppCreator<'_> = Box::new(|cc| {
+    let was_open = Arc::new(AtomicBool::new(false));
+    let opens = Arc::clone(&was_open);
+    let create: eframe::AppCreator<'_> = Box::new(move |cc| {
         let mut app = App::with_store(cc, mesh, program, store)?;
+        opens.store(true, Ordering::Relaxed);
+        if let Some(trouble) = trouble {
+            app.session.warn(trouble);
+        }
         if let Some(viewpoint) = viewpoint {
             app.session.look_from(viewpoint);
         }
         Ok(Box::new(app))
     });
-    eframe::run_native("vv", options, create).map_err(|error| WindowError { cause: error.to_string() })
+    eframe::run_native("vv", options, create)
+        .map_err(|error| WindowError { cause: error.to_string(), was_open: was_open.load(Ordering::Relaxed) })
 }
 
 fn wgpu_options() -> egui_wgpu::WgpuConfiguration {
@@ -104,10 +116,12 @@ fn wgpu_options() -> egui_wgpu::WgpuConfiguration {
     egui_wgpu::WgpuConfiguration { wgpu_setup: setup.into(), ..Default::default() }
 }
 
-/// Why no window opened, in the words of the window system or the graphics driver.
+/// Why there is no window, in the words of the window system or the graphics driver.
 #[derive(Debug)]
 pub struct WindowError {
     cause: String,
+    /// Whether it had opened before.
+    pub was_open: bool,
 }
 
 impl fmt::Display for WindowError {

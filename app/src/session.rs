@@ -269,6 +269,8 @@ pub struct Session {
     /// How often it was played.
     plays: u64,
     text_on_disk: Option<Arc<str>>,
+    /// Whether the program's file was deleted.
+    program_gone: bool,
     chooser: Option<Chooser>,
     background: Vec<Receiver<Result<String, String>>>,
     notice: Option<(Severity, String, Instant)>,
@@ -303,8 +305,10 @@ impl Session {
         if mesh.is_none() && program.is_none() {
             session.begin();
         }
-        if let Some(path) = program {
-            session.open_program(&path);
+        match program {
+            Some(path) if is_project(&path) => session.open_project(&path),
+            Some(path) => session.open_program(&path),
+            None => {}
         }
         if let Some(path) = mesh {
             session.use_mesh(MeshSource::File(path));
@@ -366,6 +370,7 @@ impl Session {
             playing: None,
             plays: 0,
             text_on_disk: None,
+            program_gone: false,
             chooser: None,
             background: Vec::new(),
             notice: None,
@@ -587,7 +592,15 @@ impl Session {
     }
 
     fn change_style(&mut self, change: impl FnOnce(&mut Style)) {
-        change(&mut self.document.style);
+        let style = &mut self.document.style;
+        change(style);
+        // Else nothing is left to see.
+        style.faces |= !style.edges && !style.vertices;
+    }
+
+    /// Tells the user of something that is no fault of what he did.
+    pub fn warn(&mut self, text: impl Into<String>) {
+        self.say(Severity::Warning, text);
     }
 
     fn say(&mut self, severity: Severity, text: impl Into<String>) {

@@ -11,6 +11,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
 use std::time::{Duration, SystemTime};
 
+use notify_debouncer_full::notify::event::{AccessKind, AccessMode, EventKind};
 use notify_debouncer_full::notify::{RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
@@ -18,6 +19,9 @@ use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, ne
 const REST: Duration = Duration::from_millis(80);
 /// How often files are looked at without having been told.
 const LOOK: Duration = Duration::from_secs(1);
+
+/// Looks after which a file that is missing is gone.
+const GONE: u32 = 2;
 
 /// Watches files from a thread of its own, which ends when this is dropped.
 pub struct Watch {
@@ -47,8 +51,11 @@ impl Watch {
         let events = messages.clone();
         let thread = std::thread::Builder::new().name("watch".to_owned()).spawn(move || {
             let mut post = Post { files: BTreeMap::new(), folders: BTreeSet::new(), debouncer: None };
-            post.debouncer = new_debouncer(REST, None, move |_: DebounceEventResult| {
-                let _ = events.send(Message::Event);
+            post.debouncer = new_debouncer(REST, None, move |told: DebounceEventResult| {
+                // That a file was read is no news; to look for it would be to read it again, for ever.
+                if told.map_or(true, |told| told.iter().any(|event| changes_something(event.kind))) {
+                    let _ = events.send(Message::Event);
+                }
             })
             .map_err(|error| log::warn!("files are looked at once a second only: {error}"))
             .ok();
@@ -68,7 +75,7 @@ impl Watch {
         }
     }
 
-    /// A file whose content has changed. One that was deleted counts once it is there again.
+    /// A file whose content has changed, or that is gone and stays so. One that was deleted counts when it is there again.
     #[must_use]
     pub fn change(&self) -> Option<PathBuf> {
         self.changes.try_recv().ok()
@@ -97,6 +104,8 @@ struct Seen {
     /// If it is the same and nobody tells of an event, the content is not read.
     stamp: Stamp,
     content: Option<u64>,
+    /// How many looks it has been missing for.
+    missing: u32,
 }
 
 impl Post {
@@ -168,9 +177,18 @@ impl Post {
 
 impl Seen {
     /// Whether the content is another than at the last look. A file that cannot be read has not changed: it is on its
-    /// way.
+    /// way, unless it is missing for longer than anybody takes to write it.
     fn look(&mut self, path: &Path, told: bool) -> bool {
         let stamp = stamp(path);
+        if stamp.is_some() {
+            self.missing = 0;
+        } else if !told && self.content.is_some() {
+            self.missing += 1;
+            if self.missing == GONE {
+                (self.content, self.stamp) = (None, None);
+                return true;
+            }
+        }
         if !told && stamp == self.stamp {
             return false;
         }
@@ -178,6 +196,10 @@ impl Seen {
         let Some(content) = fingerprint(path) else { return false };
         self.content.replace(content) != Some(content)
     }
+}
+
+fn changes_something(kind: EventKind) -> bool {
+    !matches!(kind, EventKind::Access(access) if access != AccessKind::Close(AccessMode::Write))
 }
 
 fn stamp(path: &Path) -> Stamp {

@@ -9,9 +9,9 @@ use vv::diagnostic::Diagnostic;
 use vv::io::Format;
 
 use super::report::Reporter;
-use super::{DiagnosticFormat, Exit, closest, error, fail, input, view};
+use super::{DiagnosticFormat, Exit, closest, error, fail, guard, input, view};
 
-/// Opens the modeler.
+/// Opens the modeler, and says why it ended if it was not asked to.
 pub fn open(paths: &[PathBuf], viewpoint: Option<&str>) -> Result<(), Exit> {
     let reporter = Reporter::new(DiagnosticFormat::Human);
     let viewpoint = viewpoint.map(|given| view::read(given, &reporter)).transpose()?;
@@ -22,7 +22,14 @@ pub fn open(paths: &[PathBuf], viewpoint: Option<&str>) -> Result<(), Exit> {
     if let Some(problem) = no_window(|name| std::env::var_os(name), loader_finds) {
         return fail(&reporter, Exit::NoRenderer, problem);
     }
-    app::gui::run(mesh, program, viewpoint).or_else(|problem| {
+    let guard = guard::Guard::new();
+    let result = app::gui::run(mesh, program, viewpoint);
+    drop(guard);
+    result.or_else(|problem| {
+        if problem.was_open {
+            guard::display_lost(&reporter);
+            return Err(Exit::NoRenderer);
+        }
         let display = std::env::var("WAYLAND_DISPLAY").or_else(|_| std::env::var("DISPLAY")).unwrap_or_default();
         fail(&reporter, Exit::NoRenderer, explained(&problem.to_string(), &display))
     })
@@ -65,6 +72,8 @@ fn sort(paths: &[PathBuf]) -> Result<Opened, Box<Diagnostic>> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         let (place, kind) = if extension.eq_ignore_ascii_case("vv") {
             (&mut opened.program, "program")
+        } else if extension.eq_ignore_ascii_case(app::project::EXTENSION) {
+            (&mut opened.program, "program or project")
         } else if Format::from_extension(&extension).is_some() {
             (&mut opened.mesh, "mesh")
         } else {
@@ -80,7 +89,8 @@ fn sort(paths: &[PathBuf]) -> Result<Opened, Box<Diagnostic>> {
 
 fn unknown(path: &Path) -> Diagnostic {
     let shown = path.display().to_string();
-    let diagnostic = error(format!("`{shown}` is neither a program (.vv) nor a mesh nor a command"));
+    let diagnostic =
+        error(format!("`{shown}` is neither a program (.vv) nor a project (.vvp) nor a mesh nor a command"));
     match closest(&shown, ["run", "check", "fmt", "mesh", "help"]) {
         Some(command) => diagnostic.hint(format!("did you mean `vv {command}`?")),
         None => diagnostic.hint("the commands are `run`, `check`, `fmt` and `mesh`; `vv --help` explains them"),
@@ -162,8 +172,9 @@ mod tests {
         sorted(&["a.obj"], Ok((Some("a.obj"), None)));
         sorted(&["a.OFF", "b.vv"], Ok((Some("a.OFF"), Some("b.vv"))));
         sorted(&["b.vv", "a.off"], Ok((Some("a.off"), Some("b.vv"))));
+        sorted(&["a.vvp"], Ok((None, Some("a.vvp"))));
         sorted(&["a.vv", "b.vv"], Err("a.vv and b.vv are both a program: vv opens one"));
-        sorted(&["a.stp"], Err("`a.stp` is neither a program (.vv) nor a mesh nor a command"));
+        sorted(&["a.stp"], Err("`a.stp` is neither a program (.vv) nor a project (.vvp) nor a mesh nor a command"));
     }
 
     #[cfg(target_os = "linux")]

@@ -106,6 +106,7 @@ impl Session {
         }
         self.document.program = program;
         self.project = None;
+        self.program_gone = false;
         self.forget_history();
         self.untouched();
         self.run_text();
@@ -158,6 +159,7 @@ impl Session {
                 program.name = crate::document::file_name(path);
                 program.saved = text;
                 self.text_on_disk = None;
+                self.program_gone = false;
                 self.text_was_saved();
                 self.remember(path);
                 self.ask_now();
@@ -349,6 +351,15 @@ impl Session {
     }
 
     pub(super) fn take_change(&mut self, path: &Path) {
+        let gone = !path.exists();
+        if self.document.program.path.as_deref() == Some(path) {
+            self.program_gone = gone;
+        }
+        if gone {
+            let name = crate::document::file_name(path);
+            self.say(Severity::Warning, format!("{name} is gone from the disk; what was read of it is still here"));
+            return;
+        }
         if matches!(&self.document.mesh, MeshSource::File(mesh) if mesh == path) {
             self.mesh_revision += 1;
             self.ask_now();

@@ -102,8 +102,8 @@ impl Session {
         self.project.as_ref().map(|project| project.path.as_path())
     }
 
-    /// Whether something would be lost if the window were closed: text that is in no file, or what the project that is
-    /// open does not hold. Where the eye is and which generation is shown is nobody's work.
+    /// Whether something would be lost if the window were closed: text that is in no file (any more), or what the project
+    /// that is open does not hold. Where the eye is and which generation is shown is nobody's work.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
         let program = &self.document.program;
@@ -111,7 +111,7 @@ impl Session {
             Some(project) => {
                 !same_work(&project.saved, &self.document) || program.path.is_some() && program.is_modified()
             }
-            None => program.is_modified(),
+            None => program.is_modified() || self.program_gone,
         }
     }
 

@@ -38,7 +38,7 @@ pub(super) struct State {
 pub(super) struct History {
     text: Track<Arc<str>>,
     state: Track<State>,
-    /// Counts changes.
+    /// Counts what is done, undone and done again.
     clock: u64,
     /// Counts programs: another one begins afresh.
     programs: u64,
@@ -46,9 +46,9 @@ pub(super) struct History {
 
 #[derive(Debug)]
 struct Track<T> {
-    /// What was before each change, with its number.
+    /// What was before each change, with the time at which it was done.
     past: Vec<(u64, T)>,
-    /// What was after each change that was undone.
+    /// What was after each change that was undone, with the time of that.
     future: Vec<(u64, T)>,
     last: Option<(Kind, Instant)>,
 }
@@ -79,30 +79,30 @@ pub(super) enum Kind {
 }
 
 impl<T> Track<T> {
-    fn record(&mut self, number: u64, kind: Kind, joins: impl FnOnce(&Kind) -> bool, before: T) {
+    fn record(&mut self, time: u64, kind: Kind, joins: impl FnOnce(&Kind) -> bool, before: T) {
         let now = Instant::now();
         let soon = |then: &Instant| now.duration_since(*then) < TOGETHER || matches!(kind, Kind::Play(_));
         let joins = self.future.is_empty() && self.last.as_ref().is_some_and(|(last, then)| soon(then) && joins(last));
         self.last = Some((kind, now));
         self.future.clear();
         if !joins {
-            self.past.push((number, before));
+            self.past.push((time, before));
             if self.past.len() > MOST {
                 self.past.remove(0);
             }
         }
     }
 
-    fn undo(&mut self, now: impl FnOnce() -> T) -> Option<T> {
-        let (number, before) = self.past.pop()?;
-        self.future.push((number, now()));
+    fn undo(&mut self, time: u64, now: impl FnOnce() -> T) -> Option<T> {
+        let (_, before) = self.past.pop()?;
+        self.future.push((time, now()));
         self.last = None;
         Some(before)
     }
 
-    fn redo(&mut self, now: impl FnOnce() -> T) -> Option<T> {
-        let (number, after) = self.future.pop()?;
-        self.past.push((number, now()));
+    fn redo(&mut self, time: u64, now: impl FnOnce() -> T) -> Option<T> {
+        let (_, after) = self.future.pop()?;
+        self.past.push((time, now()));
         self.last = None;
         Some(after)
     }
@@ -137,8 +137,7 @@ impl Session {
         if self.history.programs != programs {
             return;
         }
-        self.history.clock += 1;
-        let number = self.history.clock;
+        let time = self.tick();
         let now = Arc::clone(&self.document.program.text);
         if *text != now {
             let (kind, at) = match &kind {
@@ -151,7 +150,7 @@ impl Session {
                 (Kind::Delete(last), Kind::Delete(here)) => last == here || *last == at,
                 _ => false,
             };
-            self.history.text.record(number, kind.clone(), joins, Arc::clone(text));
+            self.history.text.record(time, kind.clone(), joins, Arc::clone(text));
             let mut bytes = 0;
             let fits = |(_, text): &&(u64, Arc<str>)| {
                 bytes += text.len();
@@ -163,8 +162,13 @@ impl Session {
         }
         if state != self.state() {
             let kind = kind.unwrap_or(Kind::Other);
-            self.history.state.record(number, kind.clone(), |last| *last == kind && kind != Kind::Other, state);
+            self.history.state.record(time, kind.clone(), |last| *last == kind && kind != Kind::Other, state);
         }
+    }
+
+    fn tick(&mut self) -> u64 {
+        self.history.clock += 1;
+        self.history.clock
     }
 
     /// Whether there is something to undo.
@@ -180,43 +184,44 @@ impl Session {
     }
 
     pub(super) fn undo(&mut self) {
-        let number = |track: Option<u64>| track.unwrap_or(0);
-        let text = number(self.history.text.past.last().map(|e| e.0));
-        let state = number(self.history.state.past.last().map(|e| e.0));
+        let time = |track: Option<u64>| track.unwrap_or(0);
+        let text = time(self.history.text.past.last().map(|e| e.0));
+        let state = time(self.history.state.past.last().map(|e| e.0));
         if text > state {
             self.undo_text(false);
         } else {
-            let now = self.state();
-            if let Some(before) = self.history.state.undo(|| now) {
+            let (now, time) = (self.state(), self.tick());
+            if let Some(before) = self.history.state.undo(time, || now) {
                 self.restore(before);
             }
         }
     }
 
     pub(super) fn redo(&mut self) {
-        let number = |track: Option<u64>| track.unwrap_or(u64::MAX);
-        let text = number(self.history.text.future.last().map(|e| e.0));
-        let state = number(self.history.state.future.last().map(|e| e.0));
-        if text < state {
+        // What was undone last comes first, whichever was done first.
+        let time = |track: Option<u64>| track.unwrap_or(0);
+        let text = time(self.history.text.future.last().map(|e| e.0));
+        let state = time(self.history.state.future.last().map(|e| e.0));
+        if text > state {
             self.redo_text(false);
         } else {
-            let now = self.state();
-            if let Some(after) = self.history.state.redo(|| now) {
+            let (now, time) = (self.state(), self.tick());
+            if let Some(after) = self.history.state.redo(time, || now) {
                 self.restore(after);
             }
         }
     }
 
     pub(super) fn undo_text(&mut self, focus: bool) {
-        let now = Arc::clone(&self.document.program.text);
-        if let Some(before) = self.history.text.undo(|| now) {
+        let (now, time) = (Arc::clone(&self.document.program.text), self.tick());
+        if let Some(before) = self.history.text.undo(time, || now) {
             self.restore_text(before, focus);
         }
     }
 
     pub(super) fn redo_text(&mut self, focus: bool) {
-        let now = Arc::clone(&self.document.program.text);
-        if let Some(after) = self.history.text.redo(|| now) {
+        let (now, time) = (Arc::clone(&self.document.program.text), self.tick());
+        if let Some(after) = self.history.text.redo(time, || now) {
             self.restore_text(after, focus);
         }
     }

@@ -11,6 +11,7 @@ mod command_line;
 mod editors;
 mod fixtures;
 mod live_reload;
+mod losses;
 mod pictures;
 mod shaders;
 mod soak;

@@ -7,6 +7,7 @@ use app::camera::Camera;
 use app::command::{Answer, Command, Inspect, MENUS, Panel, Reload, TextAction, ThemeChoice};
 use app::document::MeshSource;
 use app::inspect::selection::Item;
+use app::preferences::Preferences;
 use app::session::Session;
 use vv::builtins::Random;
 use vv::mesh::{Value, Vertex};
@@ -19,9 +20,18 @@ const TEXTS: [&str; 5] = [
     "void start(mesh& S) { vertex v; add v to S; }",
 ];
 
-/// Commands that neither open dialogs of the system nor write files.
+/// Whether a command stays inside: neither opens dialogs of the system, nor writes files, nor ends it all.
+fn stays_inside(command: &Command) -> bool {
+    !matches!(command, Command::Choose(_) | Command::Save | Command::CopyImage | Command::Quit)
+}
+
+/// Any command: one of the menus, whatever stands there, or one that carries a value.
 fn command(random: &mut Random) -> Command {
     let mut below = |n: u64| random.bits() % n;
+    if below(3) == 0 {
+        let all: Vec<_> = MENUS.iter().flat_map(|m| m.groups).copied().flatten().filter(|c| stays_inside(c)).collect();
+        return all[below(all.len() as u64) as usize].clone();
+    }
     let text = |i: u64| -> Arc<str> { TEXTS[i as usize % TEXTS.len()].into() };
     match below(34) {
         0 | 1 => Command::Step,
@@ -43,6 +53,7 @@ fn command(random: &mut Random) -> Command {
         20 => Command::ChooseRule(["f", "g", "none"][below(3) as usize].to_owned()),
         21 => Command::UseMesh(MeshSource::BuiltIn(["cube.obj", "octahedron.obj"][below(2) as usize].to_owned())),
         22 => Command::UseMesh(MeshSource::Empty),
+        23 if below(2) == 0 => Command::Exhibit { program: "koch.vv", keep_mesh: below(2) == 0 },
         23 => Command::OpenExample("loop.vv"),
         24 => Command::NewProgram,
         25 => Command::AnswerUnsaved(Answer::Discard),
@@ -56,6 +67,11 @@ fn command(random: &mut Random) -> Command {
             2 => Command::Text(TextAction::Format),
             3 => Command::Palette,
             4 => Command::Smooth,
+            5 if below(2) == 0 => {
+                let preferences =
+                    Preferences { memory: below(9) as usize, scale: below(9) as f32, ..Default::default() };
+                Command::SetPreferences(preferences)
+            }
             5 => Command::SetSpeed(60.0),
             6 => Command::Fit,
             _ => Command::Faces,
@@ -100,7 +116,10 @@ fn in_order(session: &Session, after: &Command) {
     }
     let Camera { pivot, distance, .. } = document.camera;
     assert!(pivot.is_finite() && distance > 0.0, "{after:?}");
-    assert!(document.style.faces || document.style.edges, "{after:?}: nothing is left to see");
+    let style = document.style;
+    assert!(style.faces || style.edges || style.vertices, "{after:?}: nothing is left to see");
+    assert_eq!(session.preferences, session.preferences.sensible(), "{after:?}");
+    assert!(!session.wants_quit(), "{after:?}");
     // Every command can say what it is, and whether it makes sense.
     for command in MENUS.iter().flat_map(|m| m.groups).copied().flatten() {
         let _ = (command.is_enabled(session), command.is_on(session));
@@ -151,4 +170,20 @@ fn random_commands_leave_the_session_in_order() {
         assert_eq!((&now.mesh, &now.rule, &now.params), (&then.mesh, &then.rule, &then.params));
         assert_eq!(now.generation, then.generation);
     }
+}
+
+#[test]
+fn what_was_undone_last_is_done_again_first() {
+    let mut session = Session::new(None, None, None, Arc::new(|| {})).unwrap();
+    session.apply(Command::SetParam("w".to_owned(), Value::Double(0.5)));
+    session.apply(Command::Undo);
+    session.apply(Command::Edit(TEXTS[0].into()));
+    session.apply(Command::Undo);
+    session.apply(Command::Redo);
+    assert_eq!(&*session.document.program.text, TEXTS[0]);
+    assert!(session.document.params.is_empty());
+    session.apply(Command::Redo);
+    assert!(!session.document.params.is_empty());
+    session.apply(Command::Undo);
+    assert_eq!((&*session.document.program.text, session.document.params.len()), (TEXTS[0], 0));
 }

@@ -13,5 +13,9 @@ fn without_a_display_it_names_the_way_that_needs_none() {
 fn what_cannot_be_opened_is_said_before() {
     check("none.vv", 3, "none.vv: there is no such file");
     check("move.vv triangle.vv", 2, "move.vv and triangle.vv are both a program: vv opens one");
-    check("chek move.vv", 2, "`chek` is neither a program (.vv) nor a mesh nor a command\n`vv check`");
+    check(
+        "chek move.vv",
+        2,
+        "`chek` is neither a program (.vv) nor a project (.vvp) nor a mesh nor a command\n`vv check`",
+    );
 }
