@@ -9,6 +9,7 @@ mod info;
 mod input;
 mod look;
 mod lsp;
+mod mask;
 mod open;
 mod output;
 mod picture;
@@ -87,6 +88,12 @@ enum Command {
     /// Replaces each file, whole or not at all, unless it is laid out so already; `-` goes from stdin to stdout. A program
     /// that cannot be read without doubt is left as it is.
     Fmt(fmt::Arguments),
+    /// Show with which weights a rule makes new vertices of old ones, found by running it.
+    ///
+    /// Around one vertex of each valence in regular surroundings, inside and at the boundary, or on a mesh. Warns where a
+    /// rule is not affine, weights do not sum to one, a mirror image has other masks, or the order of the vertices
+    /// matters.
+    Mask(mask::Arguments),
     /// Help an editor: errors as they are typed, meanings, completion, names across files, layout.
     ///
     /// A language server. Editors start it and speak with it over stdin and stdout (LSP 3.17).
@@ -179,6 +186,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(arguments)) => run::run(&arguments, began),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),
+        Some(Command::Mask(arguments)) => mask::mask(&arguments),
         Some(Command::Lsp(arguments)) => lsp::lsp(&arguments),
         Some(Command::Mesh(MeshCommand::Info(arguments))) => info::info(&arguments),
         Some(Command::Completions(arguments)) => shell::completions(&arguments),

@@ -18,6 +18,7 @@ pub mod diagnostic;
 pub mod engine;
 pub mod io;
 pub mod ir;
+pub mod masks;
 pub mod mesh;
 pub mod source;
 pub mod stop;

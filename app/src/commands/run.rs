@@ -1,6 +1,6 @@
 //! `vv run`
 
-mod parameters;
+pub(super) mod parameters;
 mod summary;
 
 use std::path::PathBuf;
@@ -237,7 +237,8 @@ fn plan(arguments: &Arguments, program: &Program) -> Result<(Option<FunctionId>,
     Ok((rule, steps))
 }
 
-fn unknown_rule(program: &str, wanted: &str, names: &[&str]) -> Diagnostic {
+/// Says which rules there are.
+pub(super) fn unknown_rule(program: &str, wanted: &str, names: &[&str]) -> Diagnostic {
     let diagnostic = error(format!("{program} has no rule `{wanted}`"));
     let diagnostic = match names {
         [] => diagnostic.evidence("it has only `start`"),

@@ -4,6 +4,7 @@ mod budgets;
 mod files;
 mod language_server;
 mod layout;
+mod masks;
 mod meshes;
 mod outputs;
 mod pictures;

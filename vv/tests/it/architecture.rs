@@ -16,6 +16,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("check", &["builtins", "diagnostic", "ir", "mesh", "source", "syntax"]),
     ("engine", &["builtins", "diagnostic", "ir", "mesh", "source", "stop"]),
     ("io", &["diagnostic", "mesh", "stop"]),
+    ("masks", &["diagnostic", "engine", "ir", "mesh", "stop"]),
 ];
 
 /// What a module's files say after `crate::`, tests and comments left out.

@@ -11,6 +11,7 @@ mod engines;
 mod files;
 mod gallery;
 mod manual;
+mod masks;
 mod mesh;
 mod oracles;
 mod rings;

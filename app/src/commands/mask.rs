@@ -1,0 +1,340 @@
+//! `vv mask`
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use app::evaluation::{machine_limits, within};
+use app::files;
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::engine::{Engine, Failure, FailureKind, Machine, Settings};
+use vv::ir::FunctionId;
+use vv::masks::{Around, Class, Masks, Star, TOLERANCE, classes, fraction, measure, same_classes};
+use vv::mesh::faces::faces;
+use vv::mesh::{Mesh, Vertex};
+use vv::source::Sources;
+use vv::stop::Stop;
+
+use super::info::json;
+use super::report::{Reporter, write_stdout};
+use super::run::{parameters, unknown_rule};
+use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input};
+
+const EXAMPLES: &str = "\
+Examples:
+  vv mask loop.vv                              inside and at the boundary, valence by valence
+  vv mask catmull-clark.vv --around quads --valence 5
+  vv mask butterfly.vv -i torus.obj --vertex 40
+
+";
+
+/// A step for every three vertices: more would take too long.
+const MOST: usize = 20_000;
+
+/// What `vv mask` takes.
+#[derive(Debug, Args)]
+#[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
+pub struct Arguments {
+    /// The program; `-` is stdin.
+    program: PathBuf,
+    /// The masks of this mesh, in place of those around one irregular vertex.
+    #[arg(short, long, value_name = "MESH")]
+    input: Option<PathBuf>,
+    /// The mask of this vertex of the result only, counted from 1.
+    #[arg(long, value_name = "NUMBER", requires = "input")]
+    vertex: Option<usize>,
+    /// Around one vertex: what is around it. Default: triangles for rules that make triangles of triangles, else quads.
+    #[arg(long, value_enum, value_name = "FACES", conflicts_with = "input")]
+    around: Option<Faces>,
+    /// Around one vertex: its valence. May be repeated. Default: 3 to 12.
+    #[arg(long, value_name = "N", conflicts_with = "input", value_parser = clap::value_parser!(u8).range(3..=64))]
+    valence: Vec<u8>,
+    /// The rule. Default: `step`, else the program's last one.
+    #[arg(long, value_name = "NAME")]
+    rule: Option<String>,
+    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated.
+    #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
+    definitions: Vec<(String, String)>,
+    /// Write one JSON object.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    importing: Importing,
+    #[command(flatten)]
+    reporting: Reporting,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Faces {
+    /// Valence 6 all around.
+    Triangles,
+    /// Valence 4 all around.
+    Quads,
+}
+
+/// Prints the masks, and as warnings what keeps them from being masks.
+pub fn mask(arguments: &Arguments) -> Result<(), Exit> {
+    let reporter = Reporter::new(arguments.reporting.diagnostic_format);
+    let (program, _) = input::program(&arguments.program, &reporter)?;
+    let name = files::shown(&arguments.program);
+    let rules: Vec<_> = program.rules.iter().filter_map(|&r| program.function(r)).map(|f| f.name.as_str()).collect();
+    let wanted = arguments.rule.as_deref();
+    let Some(rule) = wanted.map_or_else(|| program.default_rule(), |wanted| program.rule(wanted)) else {
+        let diagnostic = match wanted {
+            Some(wanted) => unknown_rule(&name, wanted, &rules),
+            None => error(format!("{name} has no rule, so there is no mask")),
+        };
+        return fail(&reporter, if wanted.is_some() { Exit::Usage } else { Exit::Program }, diagnostic);
+    };
+    let params = parameters::values(&program, &arguments.definitions)
+        .or_else(|diagnostic| fail(&reporter, Exit::Usage, *diagnostic))?;
+    let machine = Machine::new(Arc::clone(&program), Engine::Native);
+    let rule_name = program.function(rule).map(|f| f.name.clone()).unwrap_or_default();
+    let table = within(arguments.importing.timeout.0, |stop| {
+        let settings = Settings { params, limits: machine_limits(), stop: stop.clone(), ..Settings::default() };
+        let bench = Bench { machine, rule, settings, reporter: &reporter };
+        match &arguments.input {
+            Some(path) => bench.of_mesh(arguments, path),
+            None => bench.of_stars(arguments),
+        }
+    })?;
+    for warning in &table.warnings {
+        reporter.report(&[Diagnostic::new(Severity::Warning, None, warning.as_str())], &Sources::default());
+    }
+    let table = Table { program: name, rule: rule_name, ..table };
+    let text = if arguments.json { json(&table) } else { table.text() };
+    write_stdout(text.as_bytes(), &reporter)
+}
+
+/// All that was found.
+#[derive(Default, Serialize)]
+struct Table {
+    program: String,
+    rule: String,
+    /// What is around one irregular vertex; absent for a mesh.
+    around: Option<&'static str>,
+    rows: Vec<Row>,
+    warnings: Vec<String>,
+}
+
+/// Masks that belong together.
+#[derive(Serialize)]
+struct Row {
+    title: String,
+    masks: Vec<Mask>,
+    /// Why there are none.
+    failure: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Mask {
+    /// What is made so.
+    place: String,
+    /// How many vertices are.
+    count: usize,
+    weights: Vec<Weight>,
+}
+
+/// Old vertices of one weight.
+#[derive(Serialize)]
+struct Weight {
+    of: Vec<String>,
+    weight: f64,
+    fraction: Option<String>,
+}
+
+struct Bench<'a> {
+    machine: Machine,
+    rule: FunctionId,
+    settings: Settings,
+    reporter: &'a Reporter,
+}
+
+impl Bench<'_> {
+    fn measure(&self, mesh: &Mesh) -> Result<Masks, Failure> {
+        measure(&self.machine, self.rule, mesh, &self.settings)
+    }
+
+    fn of_mesh(&self, arguments: &Arguments, path: &std::path::Path) -> Result<Table, Exit> {
+        let (mesh, _) = input::mesh(path, &arguments.importing, self.reporter)?;
+        if mesh.vertex_count() > MOST {
+            let message = format!("{} vertices take too long: each three of them need a step", mesh.vertex_count());
+            return fail(self.reporter, Exit::Budget, error(message).hint(format!("take a mesh of at most {MOST}")));
+        }
+        let masks = self.measure(&mesh).map_err(|failure| {
+            self.reporter.report(&[*failure.diagnostic], &self.machine.program().sources);
+            match failure.kind {
+                FailureKind::Program => Exit::Program,
+                FailureKind::Budget | FailureKind::Stopped(_) => Exit::Budget,
+                FailureKind::OutputClosed => Exit::File,
+            }
+        })?;
+        let of = |mask: &[(Vertex, f64)]| weights(mask, |v| v.to_string(), &[]);
+        let mut rows: Vec<Mask> = Vec::new();
+        let mut seen: Vec<Vec<f64>> = Vec::new();
+        for (v, mask) in masks.result.vertices().zip(&masks.weights) {
+            if arguments.vertex.is_some_and(|wanted| wanted != v.index() + 1) || !masks.result.set.contains(v) {
+                continue;
+            }
+            let mut sorted: Vec<f64> = mask.iter().map(|(_, w)| *w).collect();
+            sorted.sort_by(f64::total_cmp);
+            let alike = |other: &Vec<f64>| {
+                other.len() == sorted.len() && other.iter().zip(&sorted).all(|(a, b)| (a - b).abs() < 1e-10)
+            };
+            match seen.iter().position(alike) {
+                Some(i) => rows[i].count += 1,
+                None => {
+                    seen.push(sorted);
+                    rows.push(Mask { place: v.to_string(), count: 1, weights: of(mask) });
+                }
+            }
+        }
+        if let (Some(number), true) = (arguments.vertex, rows.is_empty()) {
+            let message = format!("the result has no vertex v{number}");
+            return fail(self.reporter, Exit::Usage, error(message));
+        }
+        let warnings = masks.faults.iter().take(3).map(ToString::to_string).collect();
+        let row = Row { title: files::shown(path), masks: rows, failure: None };
+        Ok(Table { rows: vec![row], warnings, ..Table::default() })
+    }
+
+    fn of_stars(&self, arguments: &Arguments) -> Result<Table, Exit> {
+        let around = match arguments.around {
+            Some(Faces::Triangles) => Around::Triangles,
+            Some(Faces::Quads) => Around::Quads,
+            None => self.natural(),
+        };
+        let valences: Vec<usize> = if arguments.valence.is_empty() {
+            (3..=12).collect()
+        } else {
+            arguments.valence.iter().map(|&n| usize::from(n)).collect()
+        };
+        let mut table =
+            Table { around: Some(if around == Around::Triangles { "triangles" } else { "quads" }), ..Table::default() };
+        let inside = valences.iter().map(|&n| (n, false));
+        // A regular boundary vertex has 3 sectors of triangles or 2 quads; one on either side shows the rule.
+        let boundary = (1..=5).filter(|_| arguments.valence.is_empty());
+        for (sectors, boundary) in inside.chain(boundary.map(|k| (k, true))) {
+            let Some(star) = Star::new(sectors, around, boundary) else { continue };
+            let title = match (boundary, sectors) {
+                (false, n) => format!("valence {n}"),
+                (true, 1) => "boundary, 1 sector".to_owned(),
+                (true, n) => format!("boundary, {n} sectors"),
+            };
+            let row = match self.measure(&star.mesh) {
+                Ok(masks) => {
+                    let found = classes(&star, &masks);
+                    self.judge(&title, &star, &masks, &found, &mut table.warnings);
+                    let masks = found.iter().map(|class| named(&star, class)).collect();
+                    Row { title, masks, failure: None }
+                }
+                Err(failure) => Row { title, masks: Vec::new(), failure: Some(failure.diagnostic.message.clone()) },
+            };
+            table.rows.push(row);
+        }
+        Ok(table)
+    }
+
+    /// What the rule is meant for: triangles if it makes triangles of them.
+    fn natural(&self) -> Around {
+        let makes_triangles = || {
+            let star = Star::new(6, Around::Triangles, false)?;
+            let result = self.machine.run(self.rule, &star.mesh, 1, &self.settings, &mut Vec::new()).ok()?;
+            Some(faces(&result, &Stop::new()).ok()?.iter().all(|face| face.len() == 3))
+        };
+        if makes_triangles() == Some(true) { Around::Triangles } else { Around::Quads }
+    }
+
+    fn judge(&self, title: &str, star: &Star, masks: &Masks, found: &[Class], warnings: &mut Vec<String>) {
+        if let Some(fault) = masks.faults.first() {
+            warnings.push(format!("{title}: {fault}"));
+        }
+        if found.iter().any(|class| !class.symmetric) {
+            warnings.push(format!("{title}: the masks are not symmetric: a mirror image has others"));
+        }
+        let again = star.reversed().and_then(|other| Some((self.measure(&other.mesh).ok()?, other)));
+        if again.is_none_or(|(masks, other)| !same_classes(found, &classes(&other, &masks))) {
+            warnings.push(format!("{title}: the masks depend on the order of the vertices"));
+        }
+    }
+}
+
+fn named(star: &Star, class: &Class) -> Mask {
+    let most = class.mask.iter().map(|(_, w)| *w).fold(0.0, f64::max);
+    let nearest: Vec<String> =
+        class.mask.iter().filter(|(_, w)| *w > most - 1e-9).map(|(v, _)| star.name(*v)).collect();
+    let place = match nearest.as_slice() {
+        [_] => "at p".to_owned(),
+        [a, b] => format!("between {a} and {b}"),
+        more => format!("amid {}", more.join(" ")),
+    };
+    // Neighbours all around go by their first and last.
+    let rays = star.sectors + usize::from(star.boundary);
+    let rings: Vec<Vec<String>> = [
+        (1..=rays).map(|i| format!("q{i}")).collect(),
+        (1..=star.sectors).map(|i| format!("q{i}+q{}", i % rays + 1)).collect(),
+    ]
+    .into();
+    Mask { place, count: class.count, weights: weights(&class.mask, |v| star.name(v), &rings) }
+}
+
+/// The greatest weight first. What is all of a ring goes by its first and last.
+fn weights(mask: &[(Vertex, f64)], name: impl Fn(Vertex) -> String, rings: &[Vec<String>]) -> Vec<Weight> {
+    let mut sorted: Vec<&(Vertex, f64)> = mask.iter().collect();
+    sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut alike: Vec<(Vec<Vertex>, f64)> = Vec::new();
+    for &&(v, weight) in &sorted {
+        match alike.last_mut().filter(|(_, other)| (other - weight).abs() <= 10.0 * TOLERANCE) {
+            Some((vertices, _)) => vertices.push(v),
+            None => alike.push((vec![v], weight)),
+        }
+    }
+    let group = |(mut vertices, weight): (Vec<Vertex>, f64)| {
+        vertices.sort_unstable();
+        Weight { of: vertices.into_iter().map(&name).collect(), weight, fraction: fraction(weight) }
+    };
+    let mut groups: Vec<Weight> = alike.into_iter().map(group).collect();
+    for group in &mut groups {
+        for ring in rings.iter().filter(|ring| ring.len() > 2) {
+            if ring.iter().all(|member| group.of.contains(member)) {
+                let at = group.of.iter().position(|of| ring.contains(of)).unwrap_or_default();
+                let all = format!("{}…{}", ring[0], ring[ring.len() - 1]);
+                group.of.retain(|of| !ring.contains(of));
+                group.of.insert(at.min(group.of.len()), all);
+            }
+        }
+    }
+    groups
+}
+
+impl Table {
+    fn text(&self) -> String {
+        let mut text = format!("{}, rule {}", self.program, self.rule);
+        if let Some(around) = self.around {
+            let _ = write!(text, ", around a vertex p with neighbours q1, q2, … among {around}");
+        }
+        text.push('\n');
+        for row in &self.rows {
+            let _ = write!(text, "\n{}\n", row.title);
+            if let Some(failure) = &row.failure {
+                let _ = writeln!(text, "  none: {failure}");
+            }
+            let width = row.masks.iter().map(|mask| mask.place.chars().count()).max().unwrap_or_default();
+            for mask in &row.masks {
+                let weights: Vec<String> = mask.weights.iter().map(Weight::text).collect();
+                let times = if self.around.is_none() { format!("  {:>6} × ", mask.count) } else { "  ".to_owned() };
+                let _ = writeln!(text, "{times}{:width$}   {}", mask.place, weights.join("   "));
+            }
+        }
+        text
+    }
+}
+
+impl Weight {
+    fn text(&self) -> String {
+        let number = self.fraction.clone().unwrap_or_else(|| format!("{:.12}", self.weight));
+        format!("{}: {number}", self.of.join(" "))
+    }
+}

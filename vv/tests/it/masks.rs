@@ -1,0 +1,184 @@
+//! The masks that [`vv::masks`] finds, against the closed forms that were published, for all valences from 3 to 12.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use vv::engine::{Engine, Machine, Settings};
+use vv::masks::{Around, Class, Fault, Star, classes, measure, same_classes};
+
+fn machine(text: &str) -> Machine {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/programs");
+    let mut include = |_: &str, path: &str| {
+        let text = std::fs::read_to_string(folder.join(path)).map_err(|e| e.to_string())?;
+        Ok(vv::Included { name: path.to_owned(), text })
+    };
+    let compilation = vv::compile("program", text, &mut include);
+    assert_eq!(compilation.diagnostics, []);
+    Machine::new(compilation.program.unwrap(), Engine::Native)
+}
+
+fn found(machine: &Machine, star: &Star) -> (Vec<Class>, Vec<Fault>) {
+    let rule = machine.program().default_rule().unwrap();
+    let masks = measure(machine, rule, &star.mesh, &Settings::default()).unwrap();
+    (classes(star, &masks), masks.faults)
+}
+
+/// Masks as weights by name.
+type Expected = Vec<Vec<(String, f64)>>;
+
+#[track_caller]
+fn check(program: &str, around: Around, expected: impl Fn(usize) -> Expected) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/programs");
+    let machine = machine(&std::fs::read_to_string(folder.join(program)).unwrap());
+    for n in 3..=12 {
+        let star = Star::new(n, around, false).unwrap();
+        let (classes, faults) = found(&machine, &star);
+        assert_eq!(faults, [], "{program}, valence {n}");
+        let expected = expected(n);
+        assert_eq!(classes.len(), expected.len(), "{program}, valence {n}: {classes:#?}");
+        for expected in &expected {
+            // A class shows one of its turns; the expected one is meant up to a turn.
+            let turned: Vec<Vec<(String, f64)>> = (0..n).map(|by| turn(expected, by, n)).collect();
+            let fits = |class: &&Class| {
+                turned.iter().any(|expected| {
+                    class.mask.len() == expected.len()
+                        && expected.iter().all(|(name, weight)| {
+                            class.mask.iter().any(|(v, w)| star.name(*v) == *name && (w - weight).abs() <= 1e-12)
+                        })
+                })
+            };
+            let class = classes
+                .iter()
+                .find(fits)
+                .unwrap_or_else(|| panic!("{program}, valence {n}: no {expected:?} in {classes:#?}"));
+            assert!(class.symmetric, "{program}, valence {n}: {class:?}");
+        }
+        let other = star.reversed().unwrap();
+        assert!(same_classes(&classes, &found(&machine, &other).0), "{program}, valence {n}: the order matters");
+    }
+}
+
+/// `q2+q3` turned by one is `q3+q4`.
+fn turn(mask: &[(String, f64)], by: usize, n: usize) -> Vec<(String, f64)> {
+    let name = |name: &String| {
+        let along = |part: &str| match part.split_once('q') {
+            Some((times, ray)) => format!("{times}q{}", (ray.parse::<usize>().unwrap() - 1 + by) % n + 1),
+            None => part.to_owned(),
+        };
+        name.split('+').map(along).collect::<Vec<_>>().join("+")
+    };
+    mask.iter().map(|(of, w)| (name(of), *w)).collect()
+}
+
+fn q(i: usize, n: usize) -> String {
+    format!("q{}", (i - 1) % n + 1)
+}
+
+/// Across the face between two neighbours.
+fn c(i: usize, n: usize) -> String {
+    format!("{}+{}", q(i, n), q(i + 1, n))
+}
+
+fn p() -> String {
+    "p".to_owned()
+}
+
+fn all(n: usize, name: impl Fn(usize, usize) -> String, weight: f64) -> impl Iterator<Item = (String, f64)> {
+    (1..=n).map(move |i| (name(i, n), weight))
+}
+
+#[test]
+fn loop_() {
+    // Loop 1987: β = (5/8 − (3/8 + cos(τ/n)/4)²) / n
+    check("loop.vv", Around::Triangles, |n| {
+        let beta = (5.0 / 8.0 - (3.0 / 8.0 + (TAU / n as f64).cos() / 4.0).powi(2)) / n as f64;
+        let vertex = std::iter::once((p(), 1.0 - n as f64 * beta)).chain(all(n, q, beta)).collect();
+        let edge = vec![(p(), 0.375), (q(1, n), 0.375), (q(2, n), 0.125), (q(n, n), 0.125)];
+        vec![vertex, edge]
+    });
+}
+
+#[test]
+fn sqrt3() {
+    // Kobbelt 2000: α = (4 − 2 cos(τ/n)) / 9
+    check("sqrt3.vv", Around::Triangles, |n| {
+        let alpha = (4.0 - 2.0 * (TAU / n as f64).cos()) / 9.0;
+        let vertex = std::iter::once((p(), 1.0 - alpha)).chain(all(n, q, alpha / n as f64)).collect();
+        vec![vertex, vec![(p(), 1.0 / 3.0), (q(1, n), 1.0 / 3.0), (q(2, n), 1.0 / 3.0)]]
+    });
+}
+
+#[test]
+fn butterfly() {
+    // Zorin, Schröder and Sweldens 1996
+    check("butterfly.vv", Around::Triangles, |n| {
+        let edge = if n == 6 {
+            let (a, b, w) = ([(p(), 0.5), (q(1, n), 0.5)], [(q(2, n), 0.125), (q(6, n), 0.125)], -1.0 / 16.0);
+            let far = [q(3, n), q(5, n), c(1, n), c(6, n)].map(|name| (name, w));
+            a.into_iter().chain(b).chain(far).collect()
+        } else {
+            let weight = |j: usize| {
+                let turn = |k: f64| (k * j as f64 * TAU / n as f64).cos();
+                match (n, j) {
+                    (3, 0) => 5.0 / 12.0,
+                    (3, _) => -1.0 / 12.0,
+                    (4, 0) => 3.0 / 8.0,
+                    (4, 2) => -1.0 / 8.0,
+                    (4, _) => 0.0,
+                    _ => (0.25 + turn(1.0) + turn(2.0) / 2.0) / n as f64,
+                }
+            };
+            let around = (0..n).map(|j| (q(j + 1, n), weight(j))).filter(|(_, w)| w.abs() > 1e-12);
+            std::iter::once((p(), 0.75)).chain(around).collect()
+        };
+        vec![vec![(p(), 1.0)], edge]
+    });
+}
+
+#[test]
+fn catmull_clark() {
+    // Catmull and Clark 1978
+    check("catmull-clark.vv", Around::Quads, |n| {
+        let m = n as f64;
+        let vertex = std::iter::once((p(), 1.0 - 7.0 / (4.0 * m)))
+            .chain(all(n, q, 3.0 / (2.0 * m * m)))
+            .chain(all(n, c, 1.0 / (4.0 * m * m)))
+            .collect();
+        let sides = [q(2, n), q(n, n), c(1, n), c(n, n)].map(|name| (name, 1.0 / 16.0));
+        let edge = [(p(), 0.375), (q(1, n), 0.375)].into_iter().chain(sides).collect();
+        let face = [p(), q(1, n), q(2, n), c(1, n)].map(|name| (name, 0.25)).into();
+        vec![vertex, edge, face]
+    });
+}
+
+#[test]
+fn doo_sabin() {
+    // Doo and Sabin 1978: in a quad 9/16, 3/16, 3/16, 1/16, whatever the valence
+    check("doo-sabin.vv", Around::Quads, |n| {
+        vec![vec![(p(), 9.0 / 16.0), (q(1, n), 3.0 / 16.0), (q(2, n), 3.0 / 16.0), (c(1, n), 1.0 / 16.0)]]
+    });
+}
+
+#[test]
+fn what_is_no_mask_is_said() {
+    let star = Star::new(6, Around::Triangles, false).unwrap();
+    let faults = |body: &str| found(&machine(&format!("void step(mesh& S) {{ {body} }}")), &star).1;
+    assert_eq!(faults("forall v in S v$pos += 0.0 * v$pos;"), []);
+    assert!(matches!(faults("forall v in S v$pos = 2.0 * v$pos;")[0], Fault::Sum { sum: 2.0, .. }));
+    assert!(matches!(faults("forall v in S v$pos.z += 1;")[0], Fault::NotAffine { .. }));
+    assert!(matches!(
+        faults("forall v in S v$pos.z = v$pos.z * v$pos.z;")[0],
+        Fault::Sum { .. } | Fault::NotAffine { .. }
+    ));
+    let moving = "forall v in S { if (v$pos.x > 3.4) { vertex q = any in v; erase q from v; erase v from q; } }";
+    assert_eq!(faults(moving), [Fault::Connectivity]);
+}
+
+#[test]
+fn the_order_of_vertices_is_found_to_matter() {
+    // Each vertex goes half way to a neighbour; the later see where the earlier went.
+    let greedy = machine("void step(mesh& S) { forall v in S { vertex q = any in v; v$pos = (v$pos + q$pos) / 2; } }");
+    let star = Star::new(5, Around::Triangles, false).unwrap();
+    let other = star.reversed().unwrap();
+    assert!(!same_classes(&found(&greedy, &star).0, &found(&greedy, &other).0));
+}
