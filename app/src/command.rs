@@ -8,6 +8,7 @@ mod inspecting;
 mod matching;
 mod menus;
 mod pair;
+mod schemes;
 mod view;
 
 use std::path::PathBuf;
@@ -157,6 +158,8 @@ pub enum Command {
     SetCamera(Camera),
     /// Something to do with the camera.
     View(ViewAction),
+    /// Steps a scheme that ships with vv once on the mesh shown.
+    Subdivide(&'static str),
     /// Something to do with two documents side by side.
     Pair(PairAction),
     /// All of the mesh in sight.
@@ -332,6 +335,7 @@ impl Command {
             Self::Text(action) => return action.describe(),
             Self::View(action) => return action.describe(),
             Self::Pair(action) => return action.describe(),
+            Self::Subdivide(program) => return schemes::describe(program),
             Self::Inspect(inspect) => return inspect.describe(),
             Self::SetReload(Reload::Typed) => ("Run as typed", "run a changed text at each pause in typing", &[]),
             Self::SetReload(Reload::Saved) => ("Run on save", "run a changed text when it is saved", &[]),
@@ -438,6 +442,7 @@ impl Command {
             Self::ForgetRecent => !session.recent().is_empty(),
             Self::View(action) => action.is_enabled(session),
             Self::Pair(action) => action.is_enabled(session),
+            Self::Subdivide(_) => session.frame().is_some(),
             Self::Undo => session.can_undo(),
             Self::Redo => session.can_redo(),
             Self::Text(TextAction::NextProblem | TextAction::PreviousProblem) => session.has_problems_here(),

@@ -11,6 +11,7 @@ use vv::mesh::Value;
 use crate::annotate::Annotations;
 use crate::camera::Camera;
 use crate::scene::Style;
+use crate::worker::Request;
 
 /// The folder of texts that have no file.
 pub const NOWHERE: &str = "<vv>";
@@ -82,7 +83,7 @@ impl ProgramText {
 }
 
 /// Where generation 0 comes from.
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum MeshSource {
     /// From the program's `start` alone.
     Empty,
@@ -90,6 +91,8 @@ pub enum MeshSource {
     File(PathBuf),
     /// One of the meshes that ship with vv, by name.
     BuiltIn(String),
+    /// What another program has made: a generation of it.
+    Result(#[serde(with = "crate::project::result")] Arc<Request>),
 }
 
 impl MeshSource {
@@ -100,6 +103,22 @@ impl MeshSource {
             Self::Empty => "no mesh".to_owned(),
             Self::File(path) => file_name(path),
             Self::BuiltIn(name) => name.clone(),
+            Self::Result(request) => {
+                let (program, n) = (file_name(&request.recipe.path), request.generation);
+                match request.recipe.mesh {
+                    Self::Empty => format!("{program} × {n}"),
+                    ref mesh => format!("{}, {program} × {n}", mesh.name()),
+                }
+            }
+        }
+    }
+
+    /// How many programs have worked on it before.
+    #[must_use]
+    pub fn depth(&self) -> usize {
+        match self {
+            Self::Result(request) => 1 + request.recipe.mesh.depth(),
+            _ => 0,
         }
     }
 }

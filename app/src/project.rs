@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -12,9 +13,10 @@ use vv::mesh::Value;
 
 use crate::annotate::Annotations;
 use crate::camera::Camera;
-use crate::document::{Document, MeshSource, ProgramText};
+use crate::document::{Document, MeshSource, NOWHERE, ProgramText};
 use crate::files;
 use crate::scene::Style;
+use crate::worker::{Recipe, Request};
 
 /// What the names of projects end in.
 pub const EXTENSION: &str = "vvp";
@@ -139,13 +141,70 @@ impl Project {
     }
 
     fn each_path(&mut self, change: impl Fn(&Path) -> PathBuf) {
-        let mesh = match &mut self.mesh {
-            MeshSource::File(path) => Some(path),
-            MeshSource::Empty | MeshSource::BuiltIn(_) => None,
-        };
-        for path in self.path.iter_mut().chain(mesh) {
+        for path in &mut self.path {
             *path = change(path);
         }
+        change_paths(&mut self.mesh, &change);
+    }
+}
+
+/// In the whole row of programs that a mesh came from.
+fn change_paths(mesh: &mut MeshSource, change: &impl Fn(&Path) -> PathBuf) {
+    match mesh {
+        MeshSource::File(path) => *path = change(path),
+        MeshSource::Result(request) => {
+            let recipe = Arc::make_mut(&mut Arc::make_mut(request).recipe);
+            if !recipe.path.starts_with(NOWHERE) {
+                recipe.path = change(&recipe.path);
+            }
+            change_paths(&mut recipe.mesh, change);
+        }
+        MeshSource::Empty | MeshSource::BuiltIn(_) => {}
+    }
+}
+
+/// A generation of a program that a mesh came from.
+pub(crate) mod result {
+    use super::{Arc, BTreeMap, MeshSource, PathBuf, Recipe, Request, Setting, settings, values};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Made {
+        path: PathBuf,
+        text: String,
+        mesh: MeshSource,
+        #[serde(default)]
+        rule: Option<String>,
+        #[serde(default)]
+        params: BTreeMap<String, Setting>,
+        generation: u64,
+    }
+
+    pub fn serialize<S: Serializer>(request: &Arc<Request>, serializer: S) -> Result<S::Ok, S::Error> {
+        let recipe = &request.recipe;
+        let made = Made {
+            path: recipe.path.clone(),
+            text: recipe.text.to_string(),
+            mesh: recipe.mesh.clone(),
+            rule: recipe.rule.clone(),
+            params: settings(&recipe.params),
+            generation: request.generation,
+        };
+        made.serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Request>, D::Error> {
+        let made = Made::deserialize(deserializer)?;
+        let recipe = Recipe {
+            path: made.path,
+            text: made.text.into(),
+            includes_revision: 0,
+            mesh: made.mesh,
+            mesh_revision: 0,
+            rule: made.rule,
+            params: values(made.params),
+        };
+        Ok(Arc::new(Request { recipe: Arc::new(recipe), generation: made.generation }))
     }
 }
 

@@ -12,6 +12,7 @@ mod keeping;
 mod pictures;
 mod problem;
 mod reading;
+mod subdividing;
 mod text;
 mod undo;
 mod view;
@@ -535,6 +536,7 @@ impl Session {
             Command::SetCamera(camera) => self.set_camera(camera),
             Command::View(action) => self.change_view(action),
             Command::Pair(action) => self.change_pair(action),
+            Command::Subdivide(program) => self.subdivide(program),
             Command::Fit => (self.fit, self.asked_to_fit) = (true, true),
             Command::CopyImage => self.copy_image(),
             Command::SetTheme(theme) => self.theme = theme,

@@ -12,6 +12,7 @@
 mod bench;
 mod history;
 mod printer;
+mod results;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -88,6 +88,19 @@ pub const MENUS: &[Menu] = &[
         ],
     },
     Menu {
+        title: "Subdivide",
+        groups: &[
+            &[Command::Subdivide("loop.vv"), Command::Subdivide("butterfly.vv"), Command::Subdivide("sqrt3.vv")],
+            &[
+                Command::Subdivide("catmull-clark.vv"),
+                Command::Subdivide("doo-sabin.vv"),
+                Command::Subdivide("quad-triangle.vv"),
+                Command::Subdivide("midedge.vv"),
+                Command::Subdivide("four-eight.vv"),
+            ],
+        ],
+    },
+    Menu {
         title: "Compare",
         groups: &[
             &[Command::Pair(PairAction::Compare), Command::Pair(PairAction::Switch), Command::Pair(PairAction::Close)],

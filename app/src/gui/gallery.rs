@@ -210,7 +210,7 @@ impl Gallery {
 fn own_mesh(session: &Session) -> Option<String> {
     match &session.document.mesh {
         MeshSource::File(path) => Some(file_name(path)),
-        MeshSource::Empty | MeshSource::BuiltIn(_) => None,
+        MeshSource::Empty | MeshSource::BuiltIn(_) | MeshSource::Result(_) => None,
     }
 }
 

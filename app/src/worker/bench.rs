@@ -17,6 +17,7 @@ use vv::stop::{Stop, Stopped};
 
 use super::history::{History, Kept, frame};
 use super::printer::Printer;
+use super::results;
 use super::{Event, Failed, Frame, Reached, Recipe, Report, Request, Shared, lock};
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
@@ -190,11 +191,9 @@ impl Bench {
             return Ok(());
         }
         let _span = trace::span("reading the mesh");
-        let options = ReadOptions { stop: stop.clone(), ..ReadOptions::default() };
-        let result = match &recipe.mesh {
-            MeshSource::Empty => Ok((Mesh::new(), Vec::new())),
-            MeshSource::File(path) => files::read_mesh(path, &options).map_err(|e| e.diagnostic),
-            MeshSource::BuiltIn(name) => shipped_mesh(name, &options),
+        let result = match self.known(&recipe.mesh) {
+            Some(mesh) => Ok((mesh, Vec::new())),
+            None => results::read(&recipe.mesh, self.limits, stop),
         };
         if let Err(stopped) = stop.check() {
             return Err(Failed::said_before(FailureKind::Stopped(stopped), 0));
@@ -205,6 +204,13 @@ impl Bench {
             Err(error) => Input { source, revision, mesh: None, diagnostics: vec![*error] },
         });
         Ok(())
+    }
+
+    /// The mesh of a source that was computed just now.
+    fn known(&self, source: &MeshSource) -> Option<Mesh> {
+        let (MeshSource::Result(request), Some(history)) = (source, &self.history) else { return None };
+        let kept = history.generations.get(&request.generation).filter(|_| history.recipe == request.recipe)?;
+        Some(kept.generation.mesh.clone())
     }
 
     fn generation(
@@ -312,7 +318,7 @@ impl Failed {
     }
 }
 
-fn shipped_mesh(name: &str, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), Box<Diagnostic>> {
+pub(super) fn shipped_mesh(name: &str, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), Box<Diagnostic>> {
     let error = |message: String| Box::new(Diagnostic::new(Severity::Error, None, message));
     let shipped = library::MESHES.iter().find(|m| m.name == name);
     let format = name.rsplit_once('.').and_then(|(_, extension)| Format::from_extension(extension));
@@ -326,7 +332,7 @@ fn shipped_mesh(name: &str, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnost
 }
 
 /// The values that fit the program's parameters.
-fn params(program: &Program, values: &BTreeMap<String, Value>) -> Vec<(vv::ir::GlobalId, Value)> {
+pub(super) fn params(program: &Program, values: &BTreeMap<String, Value>) -> Vec<(vv::ir::GlobalId, Value)> {
     let fits = |ty, range: Option<(Value, Value)>, value: Value| {
         value.ty() == ty
             && match (range, value) {

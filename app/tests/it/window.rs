@@ -7,6 +7,7 @@ mod gallery;
 mod inspecting;
 mod keeping;
 mod palette;
+mod subdividing;
 mod timeline;
 mod view;
 
