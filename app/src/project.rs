@@ -141,7 +141,7 @@ impl Project {
     }
 
     fn each_path(&mut self, change: impl Fn(&Path) -> PathBuf) {
-        for path in &mut self.path {
+        if let Some(path) = &mut self.path {
             *path = change(path);
         }
         change_paths(&mut self.mesh, &change);
