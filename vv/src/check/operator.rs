@@ -220,7 +220,9 @@ impl<'a> Checker<'a> {
             _ if e.ty == vertex && wanted == vec => {
                 error.fix(format!("its position is `{text}$pos`"), e.span, format!("{text}$pos"))
             }
-            (Type::Mesh, _) if wanted == vertex => error.hint("`forall p in S` walks the vertices of a mesh `S`"),
+            (Type::Mesh, _) if wanted == vertex => error.hint(format!(
+                "`forall p in {text}` walks the vertices of a mesh, `forall p in {text} n += 1;` counts them"
+            )),
             (Type::Ring, _) if wanted == vertex => {
                 error.hint(format!("`forall p in {text}` walks the vertices of a ring"))
             }
