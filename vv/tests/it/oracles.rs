@@ -47,6 +47,7 @@ const ORACLES: &[Oracle] = &[
     oracle("opensubdiv/loop", "loop.vv"),
     oracle("openmesh/loop", "loop.vv"),
     Oracle { with: Some("creases"), ..oracle("opensubdiv/loop-creases", "loop-creases.vv") },
+    Oracle { with: Some("corners"), ..oracle("opensubdiv/loop-corners", "loop-creases.vv") },
     oracle("openmesh/butterfly", "butterfly.vv"),
     oracle("cgal/sqrt3", "sqrt3.vv"),
     Oracle {
