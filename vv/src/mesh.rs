@@ -41,6 +41,7 @@ pub use property::{Property, Type, Value, Values};
 pub use ring::{EditError, Ring};
 pub use set::VertexSet;
 
+use members::Members;
 use ring::Rings;
 pub(crate) use ring::{FRESH_CAPACITY, Head};
 
@@ -352,16 +353,17 @@ impl Mesh {
             self.rings.tidy();
             return 0;
         }
+        let is_member = Members::new(&self.set, n);
         let mut kept = vec![None; n];
         let mut count = 0;
         for v in self.vertices() {
-            if self.set.contains(v) {
+            if is_member.contains(v) {
                 kept[v.index()] = Vertex::from_index(count);
                 count += 1;
             }
         }
         let rename = |v: Vertex| kept.get(v.index()).copied().flatten();
-        self.rings = self.rings.keep(&rename);
+        self.rings = self.rings.keep(rename);
         let flags: Vec<bool> = kept.iter().map(Option::is_some).collect();
         self.positions = Column::from(
             self.positions.iter().zip(&flags).filter(|&(_, &keep)| keep).map(|(&p, _)| p).collect::<Vec<_>>(),
@@ -378,7 +380,7 @@ impl Mesh {
                 *v = v.and_then(rename);
             }
         }
-        self.set = self.set.iter().filter_map(rename).collect();
+        self.set = self.set.renamed(rename);
         forgotten
     }
 }

@@ -281,36 +281,34 @@ impl Rings {
     }
 
     /// The rings of the vertices that `rename` keeps, tightly laid out; entries it does not keep become gaps.
-    pub(super) fn keep(&self, rename: &dyn Fn(Vertex) -> Option<Vertex>) -> Self {
-        let mut heads = Vec::new();
-        let mut slots = Vec::new();
-        let mut origin = Vec::new(); // the old slot behind each new one
-        for (i, head) in self.heads.iter().enumerate() {
-            if Vertex::from_index(i).is_none_or(|v| rename(v).is_none()) {
-                continue;
+    pub(super) fn keep(&self, rename: impl Fn(Vertex) -> Option<Vertex>) -> Self {
+        let is_kept = |i: usize| Vertex::from_index(i).is_some_and(|v| rename(v).is_some());
+        let kept = || self.heads.iter().enumerate().filter(|&(i, _)| is_kept(i)).map(|(_, head)| head);
+        let (count, room) = kept().fold((0, 0), |(count, room), head| (count + 1, room + head.len as usize));
+        let mut heads = Vec::with_capacity(count);
+        let mut slots = Vec::with_capacity(room);
+        let mut open = Vec::new(); // those with gaps
+        for head in kept() {
+            let offset = slots.len();
+            slots.extend(self.slots[head.range()].iter().map(|x| x.and_then(&rename)));
+            if slots[offset..].contains(&None) {
+                open.extend(Vertex::from_index(heads.len()));
             }
-            let offset = slots.len() as u32;
-            slots.extend(self.slots[head.range()].iter().map(|x| x.and_then(rename)));
-            origin.extend(head.range());
-            heads.push(Head { offset, len: head.len, capacity: head.len });
+            heads.push(Head { offset: offset as u32, len: head.len, capacity: head.len });
         }
         let properties = self
             .properties
             .iter()
             .map(|p| {
-                let mut values = super::Values::filled(p.default, origin.len());
-                for (i, &j) in origin.iter().enumerate() {
+                let mut values = super::Values::filled(p.default, room);
+                for (i, j) in kept().flat_map(|head| head.range()).enumerate() {
                     values.set(i, p.values.get(j).unwrap_or(p.default));
                 }
                 Property { name: p.name.clone(), default: p.default, values }
             })
             .collect();
         let mut rings = Self { heads: heads.into(), slots: slots.into(), properties };
-        for v in (0..rings.len()).filter_map(Vertex::from_index) {
-            if rings.ring(v).slots().contains(&None) {
-                rings.settle_gaps(v);
-            }
-        }
+        open.into_iter().for_each(|v| rings.settle_gaps(v));
         rings
     }
 
@@ -318,7 +316,7 @@ impl Rings {
     pub(super) fn tidy(&mut self) {
         let used: usize = self.heads.iter().map(|h| h.len as usize).sum();
         if self.slots.len() > 2 * used + 64 {
-            *self = self.keep(&Some);
+            *self = self.keep(Some);
         }
     }
 

@@ -71,6 +71,16 @@ impl VertexSet {
         all.then_some((first, last))
     }
 
+    /// The members that `rename` keeps by their new names, which are in the order of the old.
+    pub(super) fn renamed(&self, rename: impl Fn(Vertex) -> Option<Vertex>) -> Self {
+        let order: Vec<_> = self.iter().filter_map(rename).map(Some).collect();
+        let mut members = Members { order, places: None };
+        if self.0.places.is_some() {
+            members.index();
+        }
+        Self(Arc::new(members))
+    }
+
     /// The members of a set that is one ascending array and not shared: a larger vertex may be pushed.
     pub(crate) fn ascending(&mut self) -> Option<&mut Vec<Option<Vertex>>> {
         let members = Arc::get_mut(&mut self.0)?;
