@@ -52,6 +52,7 @@ pub fn take(
         && !response.dragged()
         && let Some(picked) = pick(at)
         && let Some(vertex) = picked.vertex.filter(|near| near.distance <= 1.0)
+        && stands_out(overlay, frame, vertex.what)
     {
         point_at(ui, vertex.what);
     }
@@ -70,6 +71,15 @@ pub fn take(
         (_, None) => None,
     };
     commands.extend(wish.map(Command::Inspect));
+}
+
+/// Whether its neighbours are far enough away that the pointer is not always beside some vertex.
+fn stands_out(overlay: &Overlay<'_>, frame: &Frame, vertex: vv::mesh::Vertex) -> bool {
+    let seen = |v| overlay.see(frame.mesh.position(v)).map(|spot| spot.at);
+    match frame.mesh.ring(vertex).any() {
+        Some(neighbour) => seen(vertex).zip(seen(neighbour)).is_none_or(|(a, b)| a.distance(b) > 2.5 * NEAR),
+        None => true,
+    }
 }
 
 /// The vertex that is near, else the edge, else the face.

@@ -1,6 +1,6 @@
 //! What is marked over the picture: the selection and its ring, measures, the walk, what is wrong.
 
-use eframe::egui::{Ui, Vec2, vec2};
+use eframe::egui::{Ui, vec2};
 use glam::DVec3;
 use vv::mesh::triangulate::{Triangulator, newell};
 use vv::mesh::{Mesh, Vertex};
@@ -36,12 +36,12 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
         failed(overlay, fault);
     }
     let selected = session.selected();
-    for &item in &selected {
-        chosen(overlay, mesh, item);
-    }
     match (&selected[..], &inspection.walk) {
         (&[Item::Vertex(v)], None) => ring(overlay, mesh, v),
         _ => measures(overlay, mesh, &selected),
+    }
+    for &item in &selected {
+        chosen(overlay, mesh, item);
     }
     if let Some(walking) = &inspection.walk {
         walk(overlay, mesh, walking);
@@ -113,7 +113,11 @@ fn ring(overlay: &Overlay<'_>, mesh: &Mesh, v: Vertex) {
         if aside.length() > 22.0 {
             let color = if answers { ink } else { overlay.inks.wrong };
             overlay.disc(at, 3.5, color);
-            overlay.label(at, aside.normalized() * 15.0, &number.to_string(), color);
+            let (text, away) = match aside.length() {
+                ..60.0 => (number.to_string(), vec2(15.0, 15.0)),
+                _ => (format!("{number}  {q}"), vec2(26.0, 16.0)),
+            };
+            overlay.label(at, aside.normalized() * away, &text, color);
         }
     }
 }
@@ -156,7 +160,7 @@ fn measures(overlay: &Overlay<'_>, mesh: &Mesh, selected: &[Item]) {
             overlay.curved_arrow(&arc(at(b), u, w, radius), 1.5, ink);
             if let Some(degrees) = angle(at(a), at(b), at(c)) {
                 let middle = at(b) + (u.normalize_or_zero() + w.normalize_or_zero()).normalize_or_zero() * radius * 1.5;
-                overlay.label(middle, Vec2::ZERO, &format!("{}°", short(degrees)), ink);
+                overlay.label_between(middle, middle, &format!("{}°", short(degrees)), ink);
             }
         }
         _ => {}

@@ -86,6 +86,12 @@ impl Kind {
         }
     }
 
+    /// Whether it is usual: what most schemes make on purpose.
+    #[must_use]
+    pub fn is_usual(self) -> bool {
+        self == Self::NotPlane
+    }
+
     /// Whether it makes the mesh invalid.
     #[must_use]
     pub fn is_wrong(self) -> bool {
@@ -168,12 +174,11 @@ impl Findings {
         Ok(all)
     }
 
-    /// How many there are of the kinds that make a mesh invalid, and of all.
+    /// How many there are of the kinds that make a mesh invalid, and of all that is not usual.
     #[must_use]
     pub fn counts(&self) -> (usize, usize) {
-        let count =
-            |wrong_only: bool| self.groups.iter().filter(|g| !wrong_only || g.kind.is_wrong()).map(|g| g.count).sum();
-        (count(true), count(false))
+        let count = |counts: fn(Kind) -> bool| self.groups.iter().filter(|g| counts(g.kind)).map(|g| g.count).sum();
+        (count(Kind::is_wrong), count(|kind| !kind.is_usual()))
     }
 
     /// Those that name a vertex which does not name them.
