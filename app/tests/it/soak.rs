@@ -120,6 +120,10 @@ fn in_order(session: &Session, after: &Command) {
     assert!(style.faces || style.edges || style.vertices, "{after:?}: nothing is left to see");
     assert_eq!(session.preferences, session.preferences.sensible(), "{after:?}");
     assert!(!session.wants_quit(), "{after:?}");
+    if let Some(beside) = session.beside() {
+        assert!(!beside.views_linked || beside.session().aim() == session.aim(), "{after:?}: views part");
+        assert!(beside.session().beside().is_none() && !beside.session().wants_quit(), "{after:?}");
+    }
     // Every command can say what it is, and whether it makes sense.
     for command in MENUS.iter().flat_map(|m| m.groups).copied().flatten() {
         let _ = (command.is_enabled(session), command.is_on(session));
@@ -148,8 +152,12 @@ fn random_commands_leave_the_session_in_order() {
                 session.poll();
             }
             in_order(&session, &command);
-            // Generations of loop.vv grow fast.
+            // Generations of loop.vv grow fast, and those of schemes one after the other.
             if session.document.generation > 4 {
+                session.apply(Command::Rewind);
+            }
+            if session.frame().is_some_and(|frame| frame.statistics.vertices > 3000) {
+                session.apply(Command::UseMesh(MeshSource::BuiltIn("cube.obj".to_owned())));
                 session.apply(Command::Rewind);
             }
         }
