@@ -35,6 +35,7 @@ mod parameters;
 mod picture;
 mod preferences;
 mod reference;
+mod render_options;
 mod ring;
 mod saving;
 mod selection;
@@ -381,6 +382,7 @@ impl eframe::App for App {
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
         self.panels(ui, &mut commands);
+        render_options::show(ui.ctx(), &self.session, &mut commands);
         if self.session.reference {
             self.reference.show(ui.ctx(), &mut commands);
         }

@@ -209,6 +209,8 @@ pub struct Session {
     pub full_screen: bool,
     /// Whether the manual is open.
     pub reference: bool,
+    /// Whether the window is open that tells how things are drawn.
+    pub render_options: bool,
     /// The question that is open. Its text field is edited in place.
     pub dialog: Option<Dialog>,
     /// When a changed text is run.
@@ -334,6 +336,7 @@ impl Session {
             navigation: Navigation { glide: false, ..Navigation::default() },
             full_screen: false,
             reference: false,
+            render_options: false,
             dialog: None,
             reload: Reload::Typed,
             preferences,

@@ -71,7 +71,7 @@ pub const MENUS: &[Menu] = &[
     Menu {
         title: "View",
         groups: &[
-            &[Command::Fit, Command::CopyImage],
+            &[Command::Fit, Command::CopyImage, Command::View(ViewAction::RenderOptions)],
             &[Command::Faces, Command::Smooth, Command::Edges, Command::Vertices, Command::Control],
             &[
                 Command::Toggle(Panel::Program),

@@ -46,6 +46,8 @@ pub enum ViewAction {
     SetUp(Up),
     /// Gliding to new viewpoints on and off.
     Gliding,
+    /// How things are drawn, in a window over the picture, or no more.
+    RenderOptions,
 }
 
 /// A direction in the picture.
@@ -124,6 +126,9 @@ impl ViewAction {
             Self::SetUp(Up::Y) => ("Y is up", "y points up: the front is seen from +z", &[]),
             Self::SetUp(Up::Z) => ("Z is up", "z points up: the front is seen from −y", &[]),
             Self::Gliding => ("Glide to viewpoints", "go to a new viewpoint in a fifth of a second, not at once", &[]),
+            Self::RenderOptions => {
+                ("Render options", "how things are drawn, in a window over the picture", const { &[key(Key::R)] })
+            }
             Self::Glide(_) | Self::Show(_) | Self::Save(_) | Self::Use(_) | Self::Forget(_) => ("", "", &[]),
         };
         Description { label, tooltip, shortcuts }
@@ -142,6 +147,7 @@ impl ViewAction {
             Self::SetTurning(turning) => navigation.turning == *turning,
             Self::SetUp(up) => navigation.up == *up,
             Self::Gliding => navigation.glide,
+            Self::RenderOptions => session.render_options,
             _ => return None,
         })
     }

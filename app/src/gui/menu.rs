@@ -21,6 +21,9 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                     ui.separator();
                 }
                 entries(ui, session, commands, menu);
+                if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
+                    ui.separator();
+                }
                 for inner in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
                     ui.menu_button(inner.title, |ui| entries(ui, session, commands, inner));
                 }

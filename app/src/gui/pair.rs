@@ -65,7 +65,7 @@ fn side(
     if has_keys {
         Panel::top(format!("title of {name}")).frame(theme::bar(ui)).show(ui, |ui| title(ui, session, true, commands));
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| viewport.show(ui, session, name, commands));
-        let frame = Stroke::new(2.0, ui.visuals().selection.bg_fill);
+        let frame = Stroke::new(2.0, ui.visuals().hyperlink_color.gamma_multiply(0.7));
         ui.painter().rect_stroke(rect, 0.0, frame, StrokeKind::Inside);
         return;
     }

@@ -27,7 +27,7 @@ use hands::Hands;
 const MENU: &[&[Command]] = &[
     &[Command::Step, Command::Back],
     &[Command::Inspect(Inspect::Fly), Command::Inspect(Inspect::Clear)],
-    &[Command::Fit, Command::CopyImage],
+    &[Command::Fit, Command::CopyImage, Command::View(ViewAction::RenderOptions)],
     &[Command::Faces, Command::Smooth, Command::Edges, Command::Vertices, Command::Control],
 ];
 

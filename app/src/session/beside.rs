@@ -110,6 +110,7 @@ impl Session {
         self.adopt_from(other);
         self.full_screen = other.full_screen;
         self.reference = other.reference;
+        self.render_options = other.render_options;
         self.wants_quit = std::mem::take(&mut other.wants_quit);
         self.text_actions = std::mem::take(&mut other.text_actions);
         self.copied = other.copied.take();

@@ -148,6 +148,7 @@ impl Session {
                     self.glide_to(standing(aim, up, wanted));
                 }
             }
+            ViewAction::RenderOptions => self.render_options = !self.render_options,
             ViewAction::Gliding => self.navigation.glide = !self.navigation.glide,
         }
     }

@@ -290,3 +290,18 @@ fn a_viewpoint_is_glided_to_where_that_is_wanted() {
     until(&mut window, "it has arrived", |session| !session.glides());
     assert_eq!(camera(&window), aim);
 }
+
+#[test]
+fn render_options_open_over_the_picture_and_go_by_escape() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::Toggle(app::command::Panel::Inspector));
+    press(&mut window, Key::R);
+    window.run_steps(3);
+    window.get_by_label("Render options");
+    click(&mut window, "Smooth");
+    click(&mut window, "Orthographic");
+    assert!(window.state().session().document.style.smooth && camera(&window).orthographic);
+    press(&mut window, Key::Escape);
+    window.run_steps(2);
+    assert!(window.query_by_label("Render options").is_none());
+}
