@@ -18,6 +18,7 @@ mod cheat_sheet;
 mod clicks;
 mod dialogs;
 mod display;
+mod drop;
 mod editor;
 mod findings;
 mod gallery;
@@ -386,6 +387,7 @@ impl eframe::App for App {
         if self.session.reference {
             self.reference.show(ui.ctx(), &mut commands);
         }
+        drop::show(ui.ctx());
         dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
         clicks::take_pointed(ui.ctx(), &self.session, &mut commands);
         if !commands.is_empty() {

@@ -98,6 +98,9 @@ fn pasted_viewpoint(ctx: &Context, session: &Session, typing: bool) -> Option<St
 /// Opens what was dropped on the window.
 pub fn take_dropped_files(ctx: &Context, commands: &mut Vec<Command>) {
     let paths = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect::<Vec<_>>());
+    if !paths.is_empty() {
+        commands.push(Command::CloseDialog);
+    }
     commands.extend(paths.into_iter().map(Command::Open));
 }
 

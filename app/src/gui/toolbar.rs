@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui};
 
-use super::widgets::{Icon, icon_button, tab, tooltip};
+use super::widgets::{Icon, icon_button, named_icon_button, tab, tooltip};
 use crate::command::{Command, Panel};
 use crate::session::Session;
 
@@ -10,7 +10,7 @@ use crate::session::Session;
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let mut tool = |ui: &mut Ui, icon, command: Command, accent| {
+        let tool = |ui: &mut Ui, commands: &mut Vec<Command>, icon, command: Command, accent| {
             let description = command.describe();
             let enabled = command.is_enabled(session);
             let response = icon_button(ui, icon, description.label, enabled, accent);
@@ -18,13 +18,16 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 commands.push(command);
             }
         };
-        tool(ui, Icon::Rewind, Command::Rewind, None);
-        tool(ui, Icon::Back, Command::Back, None);
-        tool(ui, Icon::Step, Command::Step, None);
+        tool(ui, commands, Icon::Rewind, Command::Rewind, None);
+        tool(ui, commands, Icon::Back, Command::Back, None);
+        let step = named_icon_button(ui, Icon::Step, "Step", Command::Step.is_enabled(session));
+        if step.on_hover_ui(|ui| tooltip(ui, &Command::Step)).clicked() {
+            commands.push(Command::Step);
+        }
         let play = if session.is_playing() { Icon::Pause } else { Icon::Play };
-        tool(ui, play, Command::Play, None);
+        tool(ui, commands, play, Command::Play, None);
         let red = ui.visuals().error_fg_color;
-        tool(ui, Icon::Stop, Command::Stop, Some(red));
+        tool(ui, commands, Icon::Stop, Command::Stop, Some(red));
         ui.add_space(8.0);
         generation(ui, session, commands);
         ui.add_space(8.0);

@@ -1,5 +1,6 @@
 //! The picture and the hands on it: [`crate::navigation`] says what they do.
 
+mod empty;
 mod hands;
 
 use std::sync::Arc;
@@ -27,7 +28,7 @@ use hands::Hands;
 const MENU: &[&[Command]] = &[
     &[Command::Step, Command::Back],
     &[Command::Inspect(Inspect::Fly), Command::Inspect(Inspect::Clear)],
-    &[Command::Fit, Command::CopyImage, Command::View(ViewAction::RenderOptions)],
+    &[Command::Fit, Command::CopyImage, Command::SavePicture, Command::View(ViewAction::RenderOptions)],
     &[Command::Faces, Command::Smooth, Command::Edges, Command::Vertices, Command::Control],
 ];
 
@@ -51,14 +52,11 @@ impl Viewport {
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         let frame = session.frame().cloned();
-        let Some(frame) = frame else {
-            empty(ui, rect, session);
+        let Some(frame) = frame.filter(|frame| frame.mesh.vertex_count() > 0) else {
+            empty::show(ui, rect, session, commands);
+            news(ui, rect, session);
             return;
         };
-        if frame.mesh.vertex_count() == 0 {
-            empty(ui, rect, session);
-            return;
-        }
         let style = Style { theme: theme_of(ui), ..session.document.style };
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
@@ -151,14 +149,17 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
     let small = TextStyle::Small.resolve(ui.style());
     let galley = ui.painter().layout(summary, small, visuals.weak_text_color(), (rect.width() - 20.0).max(60.0));
     ui.painter().galley(rect.left_bottom() + vec2(10.0, -8.0 - galley.size().y), galley, visuals.weak_text_color());
+    news(ui, rect, session);
+}
+
+/// What is going on, and what has just happened.
+fn news(ui: &Ui, rect: Rect, session: &Session) {
+    let visuals = ui.visuals().clone();
     // What is done at once needs no announcement.
     if let Some((elapsed, generation)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
         let what = generation.map_or("reading".to_owned(), |g| format!("computing generation {g}"));
         let text = format!("{what}, {} …", seconds(elapsed));
         pill(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, &text, visuals.hyperlink_color);
-    }
-    if ui.input(|i| !i.raw.hovered_files.is_empty()) {
-        pill(ui, rect.center(), Align2::CENTER_CENTER, "drop to open", visuals.hyperlink_color);
     }
     if let Some((severity, text)) = session.notice() {
         let color = match severity {
@@ -207,7 +208,8 @@ fn few_lines(ui: &Ui, text: &str, width: f32) -> egui::text::LayoutJob {
 }
 
 fn pill(ui: &Ui, at: Pos2, align: Align2, text: &str, color: Color32) {
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), TextStyle::Body.resolve(ui.style()), color);
+    let most = (ui.clip_rect().width() - 56.0).max(80.0);
+    let galley = ui.painter().layout(text.to_owned(), TextStyle::Body.resolve(ui.style()), color, most);
     let padding = vec2(12.0, 5.0);
     let rect = align.anchor_size(at, galley.size() + 2.0 * padding);
     ui.painter().rect(
@@ -218,17 +220,6 @@ fn pill(ui: &Ui, at: Pos2, align: Align2, text: &str, color: Color32) {
         egui::StrokeKind::Inside,
     );
     ui.painter().galley(rect.min + padding, galley, color);
-}
-
-fn empty(ui: &Ui, rect: Rect, session: &Session) {
-    ui.painter().rect_filled(rect, 0.0, ui.visuals().extreme_bg_color);
-    let why = match session.stale() {
-        Some(Stale::Failed(message)) => message.clone(),
-        _ if session.is_busy() => return,
-        Some(Stale::Stopped) => "stopped".to_owned(),
-        None => "drop a mesh file here, choose one of the Meshes, or open one of the Examples".to_owned(),
-    };
-    centered(ui, rect, &["nothing to show yet", &why]);
 }
 
 /// Lines of text in the middle, the first one large.

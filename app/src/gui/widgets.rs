@@ -89,6 +89,30 @@ pub fn icon(ui: &mut Ui, icon: Icon, name: &str) -> Response {
     response
 }
 
+/// The same with its name beside it, for what is wanted first.
+pub fn named_icon_button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool) -> Response {
+    ui.add_enabled_ui(enabled, |ui| {
+        let font = TextStyle::Button.resolve(ui.style());
+        let galley = ui.painter().layout_no_wrap(name.to_owned(), font, Color32::PLACEHOLDER);
+        let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + 38.0, 26.0), Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+        let visuals = ui.style().interact(&response);
+        ui.painter().rect(
+            rect,
+            visuals.corner_radius,
+            visuals.weak_bg_fill,
+            visuals.bg_stroke,
+            eframe::egui::StrokeKind::Inside,
+        );
+        let inner = Rect::from_center_size(rect.left_center() + vec2(15.0, 0.0), Vec2::splat(11.0));
+        icon.paint(ui.painter(), inner, visuals.text_color());
+        let at = rect.left_center() + vec2(28.0, -galley.size().y / 2.0);
+        ui.painter().galley(at, galley, visuals.text_color());
+        response
+    })
+    .inner
+}
+
 /// Tooltip of a command: what it does, and its keys.
 pub fn tooltip(ui: &mut Ui, command: &Command) {
     let description = command.describe();

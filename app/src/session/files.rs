@@ -15,7 +15,7 @@ use crate::files;
 use crate::project::{self, Project};
 
 /// A file dialog that is gone sooner than this was never there.
-const NO_DIALOG: Duration = Duration::from_millis(500);
+const NO_DIALOG: Duration = Duration::from_millis(1000);
 
 /// A file dialog that is open.
 pub(super) struct Chooser {
@@ -250,6 +250,9 @@ impl Session {
         if self.chooser.is_some() {
             return;
         }
+        if !offers_file_dialog() {
+            return self.ask_for_path(purpose);
+        }
         let program = &self.document.program;
         let mut dialog = rfd::AsyncFileDialog::new();
         let folder = match (&self.document.mesh, purpose) {
@@ -305,18 +308,21 @@ impl Session {
         self.chooser = None;
         match choice {
             Some(path) => self.chosen(purpose, path),
-            None if at_once => {
-                let path = match purpose {
-                    Purpose::SaveProgram => self.document.program.name.clone(),
-                    Purpose::ExportMesh => "mesh.obj".to_owned(),
-                    Purpose::SaveProject => self.project_name(),
-                    Purpose::SavePicture => self.picture_name(),
-                    Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => String::new(),
-                };
-                self.dialog = Some(Dialog::TypePath { purpose, path });
-            }
+            None if at_once => self.ask_for_path(purpose),
             None => {}
         }
+    }
+
+    /// Asks for a path in a dialog of our own.
+    fn ask_for_path(&mut self, purpose: Purpose) {
+        let path = match purpose {
+            Purpose::SaveProgram => self.document.program.name.clone(),
+            Purpose::ExportMesh => "mesh.obj".to_owned(),
+            Purpose::SaveProject => self.project_name(),
+            Purpose::SavePicture => self.picture_name(),
+            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => String::new(),
+        };
+        self.dialog = Some(Dialog::TypePath { purpose, path });
     }
 
     /// Does with a path what it was chosen for.
@@ -391,6 +397,17 @@ impl Session {
             self.ask_now();
         }
     }
+}
+
+/// Whether the system may have a file dialog. Where it surely has none nobody should wait for it.
+fn offers_file_dialog() -> bool {
+    if !cfg!(all(unix, not(target_os = "macos"))) {
+        return true;
+    }
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    let bus = set("DBUS_SESSION_BUS_ADDRESS").is_some()
+        || set("XDG_RUNTIME_DIR").is_some_and(|folder| Path::new(&folder).join("bus").exists());
+    bus || set("PATH").is_some_and(|paths| std::env::split_paths(&paths).any(|folder| folder.join("zenity").exists()))
 }
 
 /// Whether a path is that of a program.

@@ -38,7 +38,7 @@ pub(super) struct State {
 pub(super) struct History {
     text: Track<Arc<str>>,
     state: Track<State>,
-    /// Counts what is done, undone and done again.
+    /// Counts what is done and undone.
     clock: u64,
     /// Counts programs: another one begins afresh.
     programs: u64,
@@ -48,8 +48,8 @@ pub(super) struct History {
 struct Track<T> {
     /// What was before each change, with the time at which it was done.
     past: Vec<(u64, T)>,
-    /// What was after each change that was undone, with the time of that.
-    future: Vec<(u64, T)>,
+    /// What was after each change that was undone, with the time of that, and that at which it was done.
+    future: Vec<(u64, u64, T)>,
     last: Option<(Kind, Instant)>,
 }
 
@@ -94,15 +94,15 @@ impl<T> Track<T> {
     }
 
     fn undo(&mut self, time: u64, now: impl FnOnce() -> T) -> Option<T> {
-        let (_, before) = self.past.pop()?;
-        self.future.push((time, now()));
+        let (done, before) = self.past.pop()?;
+        self.future.push((time, done, now()));
         self.last = None;
         Some(before)
     }
 
-    fn redo(&mut self, time: u64, now: impl FnOnce() -> T) -> Option<T> {
-        let (_, after) = self.future.pop()?;
-        self.past.push((time, now()));
+    fn redo(&mut self, now: impl FnOnce() -> T) -> Option<T> {
+        let (_, done, after) = self.future.pop()?;
+        self.past.push((done, now()));
         self.last = None;
         Some(after)
     }
@@ -205,8 +205,8 @@ impl Session {
         if text > state {
             self.redo_text(false);
         } else {
-            let (now, time) = (self.state(), self.tick());
-            if let Some(after) = self.history.state.redo(time, || now) {
+            let now = self.state();
+            if let Some(after) = self.history.state.redo(|| now) {
                 self.restore(after);
             }
         }
@@ -220,8 +220,8 @@ impl Session {
     }
 
     pub(super) fn redo_text(&mut self, focus: bool) {
-        let (now, time) = (Arc::clone(&self.document.program.text), self.tick());
-        if let Some(after) = self.history.text.redo(time, || now) {
+        let now = Arc::clone(&self.document.program.text);
+        if let Some(after) = self.history.text.redo(|| now) {
             self.restore_text(after, focus);
         }
     }
