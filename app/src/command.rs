@@ -18,7 +18,7 @@ use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 use vv::diagnostic::Hint;
 use vv::mesh::Value;
 
-use crate::annotate::{Annotations, Quantity};
+use crate::annotate::{Annotations, Arrows, Label, Quantity};
 use crate::camera::Camera;
 use crate::document::MeshSource;
 use crate::preferences::Preferences;
@@ -146,6 +146,10 @@ pub enum Command {
     SetAnnotations(Annotations),
     /// Colours it, with the range found by itself.
     ColorBy(Quantity),
+    /// What is written at vertices or in faces.
+    LabelBy(Label),
+    /// What is drawn as arrows.
+    ArrowsOf(Arrows),
     /// How the surface shows its quality.
     ShowBy(Surface),
     /// The cut on and off.
@@ -363,6 +367,19 @@ impl Command {
                 ("Isophotes", "see how even the surface is by lines of equal light", &[])
             }
             Self::ColorBy(quantity) => return describe_color(quantity),
+            Self::LabelBy(Label::Nothing) => ("No labels", "write nothing at vertices and faces", &[]),
+            Self::LabelBy(Label::Vertices) => {
+                ("Label vertices", "write at vertices what they are called", const { &[key(Key::I)] })
+            }
+            Self::LabelBy(Label::Degrees) => ("Label faces", "write in faces how many corners they have", &[]),
+            Self::LabelBy(Label::Numbers) => {
+                ("Label with numbers", "write the numbers that the colours stand for", &[])
+            }
+            Self::ArrowsOf(Arrows::Nothing) => ("No arrows", "draw no arrows", &[]),
+            Self::ArrowsOf(Arrows::VertexNormals) => {
+                ("Normals of vertices", "draw the normals at vertices as arrows", const { &[shift(Key::N)] })
+            }
+            Self::ArrowsOf(Arrows::FaceNormals) => ("Normals of faces", "draw the normals of faces as arrows", &[]),
             Self::Fit => ("Fit view", "bring all of the mesh in sight", const { &[key(Key::F)] }),
             // Ctrl+C arrives as a wish to copy, not as a key.
             Self::CopyImage => ("Copy image", "copy the picture to the clipboard", const { &[ctrl(Key::C)] }),
@@ -425,6 +442,8 @@ impl Command {
             | Self::ForgetParams(_)
             | Self::SetStyle(_)
             | Self::SetAnnotations(_)
+            | Self::LabelBy(Label::Property(_))
+            | Self::ArrowsOf(Arrows::Property(_))
             | Self::SetCamera(_) => ("", "", &[]),
         };
         Description { label, tooltip, shortcuts }
@@ -470,6 +489,8 @@ impl Command {
             Self::ShowBy(surface) => style.surface == *surface,
             Self::ColorBy(quantity) => session.document.annotations.color_by == *quantity,
             Self::Pair(action) => return action.is_on(session),
+            Self::LabelBy(label) => session.document.annotations.labels == *label,
+            Self::ArrowsOf(arrows) => session.document.annotations.arrows == *arrows,
             Self::Play => session.is_playing(),
             Self::Toggle(panel) => session.panels.is_open(*panel),
             Self::SetTheme(theme) => session.theme == *theme,

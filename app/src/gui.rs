@@ -25,6 +25,7 @@ mod gallery;
 mod gizmo;
 mod inspector;
 mod keys;
+mod labels;
 mod legend;
 mod marks;
 mod menu;

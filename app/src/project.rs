@@ -238,7 +238,7 @@ fn values(settings: BTreeMap<String, Setting>) -> BTreeMap<String, Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::annotate::Quantity;
+    use crate::annotate::{Label, Quantity};
     use crate::scene::Sphere;
 
     fn document() -> Document {
@@ -259,7 +259,12 @@ mod tests {
             views: [("side".to_owned(), Camera::standard(Sphere { center: DVec3::X, radius: 1.0 }, 1.0))].into(),
             generation: 4,
             style: Style { smooth: true, ..Style::default() },
-            annotations: Annotations { color_by: Quantity::Color("degree".to_owned()), range: Some([-0.5, 2.0]) },
+            annotations: Annotations {
+                color_by: Quantity::Color("degree".to_owned()),
+                range: Some([-0.5, 2.0]),
+                labels: Label::Property("a b".to_owned()),
+                ..Annotations::default()
+            },
             camera: Camera::standard(Sphere { center: DVec3::ONE, radius: 2.0 }, 1.5),
         }
     }

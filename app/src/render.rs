@@ -8,7 +8,7 @@
 //! ```
 //!
 //! The colour target is sRGB, so that light is added up linearly. Passes, in order: background, faces, grid, edges,
-//! vertices, control mesh; lines and points blend over the faces, tested against their depth but writing none.
+//! vertices, control mesh, arrows; lines and points blend over the faces, tested against their depth but writing none.
 
 mod frame;
 mod headless;
@@ -20,14 +20,14 @@ mod upload;
 
 use std::fmt;
 
-use crate::annotate::Tint;
+use crate::annotate::{ArrowSet, Tint};
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 use crate::trace;
 
 pub use headless::{Dressing, Headless, put_on_white, render_image};
 pub use target::Target;
-pub use upload::{Uploaded, UploadedTint};
+pub use upload::{Uploaded, UploadedArrows, UploadedTint};
 
 use frame::{Tile, layer_draws};
 use pipelines::{Pipelines, color_format};
@@ -120,6 +120,8 @@ pub struct Renderer {
 pub struct Dress<'a> {
     /// The colours of its faces, made for this scene.
     pub tint: Option<(&'a Tint, &'a UploadedTint)>,
+    /// Arrows, made for this scene, and how long they are as a multiple of the mean length of the edges.
+    pub arrows: Option<(&'a UploadedArrows, f32)>,
 }
 
 /// How to ask an adapter for a device that takes meshes and pictures as large as it can.
@@ -167,6 +169,14 @@ impl Renderer {
         guarded(&self.device, || Uploaded::new(&self.device, &self.queue, &self.pipelines, scene, self.opengl))
     }
 
+    /// Brings the arrows of a scene to the GPU.
+    ///
+    /// # Errors
+    /// If the driver is out of memory.
+    pub fn upload_arrows(&self, arrows: &ArrowSet) -> Result<UploadedArrows, RenderError> {
+        guarded(&self.device, || UploadedArrows::new(&self.device, &self.queue, &self.pipelines, arrows))
+    }
+
     /// Draws into the target; returns as soon as the work is handed over to the GPU.
     ///
     /// # Errors
@@ -202,7 +212,8 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let _span = trace::span("drawing");
         let frame = frame::frame(scene, camera, style, dress.tint.map(|(tint, _)| tint), tile, self.opengl);
-        let layers = frame::layers(scene, style, tile.picture.scale);
+        let arrow = dress.arrows.map_or(0.0, |(arrows, length)| arrows.mean_edge * length);
+        let layers = frame::layers(scene, style, arrow, tile.picture.scale);
         guarded(&self.device, || {
             target.write_uniforms(&self.queue, &frame, &layers);
             let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -245,6 +256,12 @@ impl Renderer {
                         pass.set_pipeline(vertices);
                         pass.draw(draw.vertices.start * 6..draw.vertices.end * 6, 0..1);
                     }
+                }
+                if let Some((arrows, _)) = dress.arrows.filter(|(arrows, _)| arrows.count > 0) {
+                    pass.set_pipeline(&self.pipelines.arrows);
+                    target.bind(&mut pass, frame::ARROWS);
+                    pass.set_bind_group(1, &arrows.bindings, &[]);
+                    pass.draw(0..9, 0..arrows.count);
                 }
             }
             self.queue.submit([encoder.finish()]);

@@ -25,7 +25,7 @@ use vv::stop::{Stop, Stopped};
 
 use pick::Index;
 
-pub use part::{Corner, Part, pack_color};
+pub use part::{Corner, Part, pack_color, unpack};
 pub use pick::{Near, Picked, Pointer};
 
 /// Light or dark surroundings.

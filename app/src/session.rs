@@ -526,11 +526,8 @@ impl Session {
             Command::Vertices => self.change_style(|s| s.vertices = !s.vertices),
             Command::Smooth => self.change_style(|s| s.smooth = !s.smooth),
             Command::Control => self.change_style(|s| s.control = !s.control),
-            Command::SetAnnotations(annotations) => self.document.annotations = annotations,
-            Command::ColorBy(quantity) => {
-                let is_new = self.document.annotations.color_by != quantity;
-                self.document.annotations.color_by = quantity;
-                self.document.annotations.range = self.document.annotations.range.filter(|_| !is_new);
+            Command::SetAnnotations(_) | Command::ColorBy(_) | Command::LabelBy(_) | Command::ArrowsOf(_) => {
+                self.annotate(command);
             }
             Command::ShowBy(surface) => self.change_style(|s| s.surface = surface),
             Command::Cut => self.change_style(|s| s.cut.on = !s.cut.on),

@@ -162,6 +162,7 @@ impl Frame {
             generation: self.request.generation,
             before: self.before.as_ref(),
             lineage: &self.lineage,
+            tint: self.colors.latest(),
         }
     }
 }

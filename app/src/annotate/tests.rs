@@ -52,6 +52,7 @@ impl Example {
             generation: self.generation,
             before: self.before.as_ref(),
             lineage: &self.lineage,
+            tint: None,
         }
     }
 
@@ -323,4 +324,141 @@ fn a_cell_answers_what_was_found_and_nothing_else() {
 fn numbers_are_short() {
     let shown = [0.0, 1.0, -0.25, 1234.56, 99999.0, 0.001234, 1e-7, -2.5e8].map(short);
     assert_eq!(shown, ["0", "1", "-0.25", "1235", "99999", "0.001234", "1.00e-7", "-2.50e8"]);
+}
+
+mod labels {
+    use glam::{DQuat, DVec2};
+
+    use super::*;
+    use crate::annotate::labels::{Label, MOST, Outlook, Placed, place};
+    use crate::camera::Camera;
+    use crate::scene::{Axis, Cut, Style};
+
+    const SIZE: DVec2 = DVec2::new(800.0, 600.0);
+
+    fn outlook(example: &Example) -> Outlook {
+        let style = Style::default();
+        let camera = example.scene.standard_view(&style, SIZE.x / SIZE.y);
+        let camera = Camera { world_from_view: DQuat::IDENTITY, ..camera };
+        Outlook { camera: example.scene.fit(camera, &style, SIZE.x / SIZE.y), style, size: SIZE }
+    }
+
+    fn placed(example: &Example, label: &Label, outlook: &Outlook) -> Vec<Placed> {
+        example.scene.build_index();
+        place(&example.subject(), label, outlook, &[], &Stop::new()).unwrap()
+    }
+
+    fn texts(example: &Example, label: &Label) -> Vec<String> {
+        placed(example, label, &outlook(example)).into_iter().map(|p| p.text).collect()
+    }
+
+    #[test]
+    fn vertices_are_called_by_their_names_where_they_are_seen() {
+        // Seen from the front, of an octahedron one vertex is hidden.
+        let example = ball(0);
+        // What faces the eye comes first; the others are on the outline.
+        assert_eq!(texts(&example, &Label::Vertices), ["v3", "v1", "v2", "v4", "v5"]);
+        let open = Outlook { style: Style { faces: false, ..Style::default() }, ..outlook(&example) };
+        // v6 stands behind v3, where there is no room.
+        assert_eq!(placed(&example, &Label::Vertices, &open).len(), 5);
+    }
+
+    #[test]
+    fn faces_tell_how_many_corners_they_have() {
+        assert_eq!(texts(&ball(0), &Label::Degrees), ["3"; 4]);
+    }
+
+    #[test]
+    fn values_of_properties_are_written_as_numbers_are() {
+        let mut mesh = ball(0).mesh;
+        mesh.declare_vertex_property("heat", Value::Double(0.1 + 0.2));
+        mesh.declare_vertex_property("flow", Value::Vec(DVec3::new(1.0, -0.5, 0.0)));
+        mesh.declare_vertex_property("next", Value::Vertex(None));
+        let example = Example::of(mesh);
+        assert_eq!(texts(&example, &Label::Property("heat".to_owned()))[0], "0.3");
+        assert_eq!(texts(&example, &Label::Property("flow".to_owned()))[0], "1 -0.5 0");
+        assert_eq!(texts(&example, &Label::Property("next".to_owned()))[0], "null");
+        assert!(texts(&example, &Label::Property("none".to_owned())).is_empty());
+    }
+
+    #[test]
+    fn labels_of_a_dense_mesh_do_not_overlap_and_are_not_too_many() {
+        let example = ball(5);
+        let outlook = outlook(&example);
+        let placed = placed(&example, &Label::Vertices, &outlook);
+        assert!(placed.len() > 100 && placed.len() <= MOST, "{}", placed.len());
+        let clip = outlook.camera.clip_from_view(SIZE.x / SIZE.y) * outlook.camera.view_from_world();
+        let at = |p: &Placed| {
+            let c = clip * p.at.extend(1.0);
+            DVec2::new(c.x, c.y) / c.w * SIZE / 2.0
+        };
+        for (i, a) in placed.iter().enumerate() {
+            assert!(a.at.z > 0.0, "{} faces away", a.text);
+            for b in &placed[..i] {
+                let apart = (at(a) - at(b)).abs();
+                assert!(apart.x >= 30.0 || apart.y >= 19.0, "{} and {}", a.text, b.text);
+            }
+        }
+        assert_eq!(placed[0].text, "v3", "old vertices come first");
+    }
+
+    #[test]
+    fn labels_stay_while_the_camera_moves_a_little() {
+        let example = ball(5);
+        let before = outlook(&example);
+        let first = placed(&example, &Label::Vertices, &before);
+        let turned = before.camera.orbit(DVec2::ZERO, DVec2::new(0.01, 0.0));
+        let after = Outlook { camera: turned, ..before };
+        let then = place(&example.subject(), &Label::Vertices, &after, &first, &Stop::new()).unwrap();
+        let stayed = then.iter().filter(|p| first.iter().any(|q| q.element == p.element)).count();
+        assert!(stayed * 10 > first.len() * 9, "{stayed} of {}", first.len());
+    }
+
+    #[test]
+    fn what_is_cut_away_has_no_labels_and_hides_none() {
+        let example = ball(3);
+        let cut = Cut { on: true, across: Axis::Z, ..Cut::default() };
+        let open = Outlook { style: Style { cut, ..Style::default() }, ..outlook(&example) };
+        let placed = placed(&example, &Label::Vertices, &open);
+        assert!(placed.len() > 20);
+        assert!(placed.iter().all(|p| p.at.z < 1e-9));
+    }
+}
+
+mod arrows {
+    use super::*;
+    use crate::annotate::{ArrowSet, Arrows};
+
+    fn arrows(example: &Example, arrows: &Arrows) -> ArrowSet {
+        ArrowSet::new(&example.subject(), arrows, &Stop::new()).unwrap()
+    }
+
+    #[test]
+    fn normals_of_a_ball_point_outwards() {
+        let example = ball(2);
+        for (what, count) in [(Arrows::VertexNormals, example.mesh.vertex_count()), (Arrows::FaceNormals, 128)] {
+            let set = arrows(&example, &what);
+            assert_eq!((set.arrows.len(), set.every), (count, 1));
+            for [x, y, z, u, v, w] in set.arrows {
+                let (p, n) = (DVec3::new(x.into(), y.into(), z.into()), DVec3::new(u.into(), v.into(), w.into()));
+                assert!((n.length() - 1.0).abs() < 1e-3 && p.normalize().dot(n) > 0.99, "{what:?} {p} {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_property_is_measured_by_its_longest_but_for_a_few() {
+        let mut mesh = ball(2).mesh;
+        let flow = mesh.declare_vertex_property("flow", Value::Vec(DVec3::new(0.0, 3.0, 0.0)));
+        let first = Vertex::from_index(0).unwrap();
+        mesh.set_vertex_value(flow, first, Value::Vec(DVec3::new(900.0, 0.0, 0.0)));
+        mesh.set_vertex_value(flow, Vertex::from_index(1).unwrap(), Value::Vec(DVec3::ZERO));
+        mesh.set_vertex_value(flow, Vertex::from_index(2).unwrap(), Value::Vec(DVec3::splat(f64::NAN)));
+        let example = Example::of(mesh);
+        let set = arrows(&example, &Arrows::Property("flow".to_owned()));
+        assert_eq!((set.unit, set.arrows.len()), (3.0, example.mesh.vertex_count() - 2));
+        assert_eq!((set.arrows[0][3], set.arrows[1][4]), (300.0, 1.0));
+        let lacking = ArrowSet::new(&example.subject(), &Arrows::Property("heat".to_owned()), &Stop::new());
+        assert_eq!(lacking, Err(NoField::Missing("no vertex property `heat` of type vec here".to_owned())));
+    }
 }

@@ -1,7 +1,7 @@
 //! Where each command stands: the menus, which the palette, the cheat sheet and the keys go by as well.
 
 use super::{Command, Inspect, PairAction, Panel, Reload, TextAction, ThemeChoice, Toward, ViewAction};
-use crate::annotate::Quantity;
+use crate::annotate::{Arrows, Label, Quantity};
 use crate::camera::{Side, Up};
 use crate::navigation::{Preset, Turning};
 use crate::scene::Surface;
@@ -188,6 +188,17 @@ pub const MENUS: &[Menu] = &[
                 Command::ColorBy(Quantity::Coordinate(0)),
                 Command::ColorBy(Quantity::Coordinate(1)),
                 Command::ColorBy(Quantity::Coordinate(2)),
+            ],
+            &[
+                Command::LabelBy(Label::Nothing),
+                Command::LabelBy(Label::Vertices),
+                Command::LabelBy(Label::Degrees),
+                Command::LabelBy(Label::Numbers),
+            ],
+            &[
+                Command::ArrowsOf(Arrows::Nothing),
+                Command::ArrowsOf(Arrows::VertexNormals),
+                Command::ArrowsOf(Arrows::FaceNormals),
             ],
             &[
                 Command::ShowBy(Surface::Lights),

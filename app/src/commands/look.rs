@@ -1,6 +1,6 @@
 //! How pictures look.
 
-use app::annotate::{Annotations, Quantity};
+use app::annotate::{Annotations, Arrows, Quantity};
 use app::inspect::lineage::Lineage;
 use app::scene::{Axis, Cut, Style, Surface, Theme};
 use clap::Args;
@@ -17,6 +17,9 @@ pub struct LookArguments {
     /// The numbers at both ends of the colours. Default: what most of the numbers lie between.
     #[arg(long, value_name = "LOW,HIGH", requires = "color_by", allow_hyphen_values = true, value_parser = range)]
     color_range: Option<[f64; 2]>,
+    /// Draw arrows: vertex-normals, face-normals, or a vertex property of type vec.
+    #[arg(long, value_name = "WHAT", value_parser = arrows)]
+    arrows: Option<Arrows>,
     /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, grid, dark,
     /// transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out.
     #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word)]
@@ -63,8 +66,8 @@ impl LookArguments {
     pub fn look(&self) -> Look {
         let mut style = Style { cut: self.cut.unwrap_or_default(), ..Style::default() };
         self.style.iter().for_each(|word| word.apply(&mut style));
-        let color_by = self.color_by.clone().unwrap_or_default();
-        Look { style, annotations: Annotations { color_by, range: self.color_range } }
+        let (color_by, arrows) = (self.color_by.clone().unwrap_or_default(), self.arrows.clone().unwrap_or_default());
+        Look { style, annotations: Annotations { color_by, range: self.color_range, arrows, ..Annotations::default() } }
     }
 }
 
@@ -120,6 +123,15 @@ fn quantity(text: &str) -> std::result::Result<Quantity, String> {
         Ok(_) if text.is_empty() => Err("it is colours by something".to_owned()),
         Ok(quantity) => Ok(quantity),
         Err(never) => match never {},
+    }
+}
+
+fn arrows(text: &str) -> std::result::Result<Arrows, String> {
+    match text {
+        "" => Err("they are arrows of something".to_owned()),
+        "vertex-normals" => Ok(Arrows::VertexNormals),
+        "face-normals" => Ok(Arrows::FaceNormals),
+        name => Ok(Arrows::Property(name.to_owned())),
     }
 }
 

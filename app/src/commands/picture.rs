@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use app::annotate::field::NoField;
-use app::annotate::{Subject, Tint};
+use app::annotate::{ArrowSet, Subject, Tint};
 use app::camera::Camera;
 use app::render::{self, Dressing, RenderError};
 use app::scene::Scene;
@@ -71,6 +71,7 @@ pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) ->
         generation: past.generation,
         before: past.before.as_ref(),
         lineage: &past.lineage,
+        tint: None,
     };
     let tint = match Tint::new(&subject, annotations, &never) {
         Ok(tint) => tint,
@@ -80,7 +81,14 @@ pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) ->
             return fail(reporter, Exit::Usage, diagnostic.evidence(why));
         }
     };
-    let dressing = Dressing { tint: tint.as_ref() };
+    let arrows = match ArrowSet::new(&subject, &annotations.arrows, &never) {
+        Ok(arrows) => arrows,
+        Err(NoField::Stopped(_)) => return Err(Exit::Budget), // nor this
+        Err(NoField::Missing(why)) => {
+            return fail(reporter, Exit::Usage, error("the picture cannot have these arrows").evidence(why));
+        }
+    };
+    let dressing = Dressing { tint: tint.as_ref(), arrows: Some((&arrows, annotations.arrow_length)) };
     let standard = scene.standard_view(style, size.aspect());
     let camera = match shot.viewpoint {
         None => standard,

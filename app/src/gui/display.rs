@@ -4,7 +4,7 @@ use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
 use vv::mesh::Type;
 
 use super::widgets::{heading, switch, tooltip};
-use crate::annotate::{Annotations, Quantity};
+use crate::annotate::{Annotations, Arrows, Label, Quantity};
 use crate::command::Command;
 use crate::scene::{Axis, Cut, Style, Surface};
 use crate::session::Session;
@@ -22,7 +22,10 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
     switch(ui, session, commands, Command::Control);
     ui.add_space(2.0);
-    group(ui, "Colours", session.document.annotations.color_by != Quantity::Plain, |ui| colors(ui, session, commands));
+    group(ui, "Colours", true, |ui| colors(ui, session, commands));
+    let Annotations { labels, arrows, .. } = &session.document.annotations;
+    let open = *labels != Label::Nothing || *arrows != Arrows::Nothing;
+    group(ui, "Labels and arrows", open, |ui| labels_and_arrows(ui, session, commands));
     group(ui, "Surface", false, |ui| surface(ui, session, commands));
     group(ui, "Cut", session.document.style.cut.on, |ui| cut(ui, session, commands));
     ui.add_space(2.0);
@@ -37,6 +40,7 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let Annotations { color_by, range, .. } = &session.document.annotations;
     let combo = ComboBox::from_id_salt("colour by")
         .selected_text(color_by.title())
+        .truncate()
         .height(420.0)
         .width(ui.available_width() - 8.0);
     let response = combo.show_ui(ui, |ui| {
@@ -87,6 +91,46 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 commands.push(set(None));
             }
         });
+    }
+}
+
+fn labels_and_arrows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let annotations = &session.document.annotations;
+    let properties = session.frame().map_or(&[][..], |frame| frame.mesh.vertex_properties());
+    let mut row = |ui: &mut Ui, title: &str, name: &str, shown: String, offers: Vec<(Command, String)>| {
+        ui.horizontal(|ui| {
+            ui.add_sized([48.0, 20.0], eframe::egui::Label::new(title));
+            let combo = ComboBox::from_id_salt(name).selected_text(shown).truncate().height(420.0);
+            let response = combo.width(ui.available_width() - 8.0).show_ui(ui, |ui| {
+                for (command, title) in offers {
+                    let entry = ui.selectable_label(command.is_on(session) == Some(true), title);
+                    if entry.on_hover_text(command.describe().tooltip).clicked() {
+                        commands.push(command);
+                    }
+                }
+            });
+            response.response.accessible_name(name);
+        });
+    };
+    let mut labels: Vec<_> = Label::NAMED.map(|label| (Command::LabelBy(label.clone()), label.title())).into();
+    let property = |p: &vv::mesh::Property| (Command::LabelBy(Label::Property(p.name.clone())), p.name.clone());
+    labels.extend(properties.iter().map(property));
+    row(ui, "Labels", "Label by", annotations.labels.title(), labels);
+    let mut arrows: Vec<_> = Arrows::NAMED.map(|arrows| (Command::ArrowsOf(arrows.clone()), arrows.title())).into();
+    let property = |p: &vv::mesh::Property| (Command::ArrowsOf(Arrows::Property(p.name.clone())), p.name.clone());
+    arrows.extend(properties.iter().filter(|p| p.values.ty() == Type::Vec).map(property));
+    row(ui, "Arrows", "Arrows of", annotations.arrows.title(), arrows);
+    if annotations.arrows != Arrows::Nothing {
+        let mut length = annotations.arrow_length;
+        ui.spacing_mut().slider_width = (ui.available_width() - 66.0).max(40.0);
+        let slider = ui.add(Slider::new(&mut length, 0.1..=10.0).logarithmic(true).max_decimals(2));
+        let slider = slider.on_hover_text("how long arrows are, measured by the edges");
+        if slider.accessible_name("Length of arrows").changed() {
+            commands.push(Command::SetAnnotations(Annotations { arrow_length: length, ..annotations.clone() }));
+        }
+        if let Some(every) = session.arrows().map(|set| set.every).filter(|every| *every > 1) {
+            ui.weak(format!("one of {every} is drawn"));
+        }
     }
 }
 

@@ -20,7 +20,7 @@ pub fn show(ui: &Ui, rect: Rect, camera: &Camera) {
         [DVec3::X, DVec3::Y, DVec3::Z].map(|a| view * a).into_iter().zip(["x", "y", "z"]).zip(colors).collect();
     axes.sort_by(|a, b| a.0.0.z.total_cmp(&b.0.0.z)); // what points to the eye is drawn last
     let painter = ui.painter();
-    painter.circle_filled(center, LENGTH + 16.0, ui.visuals().window_fill.gamma_multiply(0.55));
+    painter.circle_filled(center, LENGTH + 18.0, ui.visuals().window_fill.gamma_multiply(0.55));
     for ((direction, name), color) in axes {
         let along = vec2(direction.x as f32, -direction.y as f32);
         let color = if direction.z < -0.05 { color.gamma_multiply(0.6) } else { color };

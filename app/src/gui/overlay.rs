@@ -248,6 +248,17 @@ impl<'a> Overlay<'a> {
         }
     }
 
+    /// Small text at a point that is known to be seen.
+    pub fn tag(&self, p: DVec3, text: &str, color: Color32) {
+        if let Some(at) = self.project(p).filter(|at| self.rect.contains(*at)) {
+            let galley = self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.0), color);
+            let padding = vec2(3.0, 0.0);
+            let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size() + 2.0 * padding);
+            self.painter.rect_filled(rect, CornerRadius::same(4), self.inks.paper);
+            self.painter.galley_with_override_text_color(rect.min + padding, galley, color);
+        }
+    }
+
     /// Text in the middle between two points.
     pub fn label_between(&self, a: DVec3, b: DVec3, text: &str, color: Color32) {
         if let Some((a, b)) = self.project(a).zip(self.project(b)) {

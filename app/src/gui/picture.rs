@@ -6,9 +6,9 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 use eframe::egui::TextureId;
 use eframe::egui_wgpu::RenderState;
 
-use crate::annotate::Tint;
+use crate::annotate::{ArrowSet, Tint};
 use crate::camera::Camera;
-use crate::render::{Dress, RenderError, Renderer, Size, Target, Uploaded, UploadedTint};
+use crate::render::{Dress, RenderError, Renderer, Size, Target, Uploaded, UploadedArrows, UploadedTint};
 use crate::scene::{Scene, Style};
 use crate::worker::release;
 
@@ -31,9 +31,36 @@ pub struct Picture {
     refused: Option<(Arc<Scene>, RenderError)>,
     /// The colours on the GPU.
     tint: Option<(Arc<Tint>, UploadedTint)>,
-    drawn: Option<(Camera, Style, Option<Arc<Tint>>)>,
+    arrows: Option<(Arc<ArrowSet>, UploadedArrows)>,
+    drawn: Option<Drawn>,
     /// How often it was drawn.
     pub drawings: u64,
+}
+
+/// What is drawn with a scene, made for it.
+#[derive(Default)]
+pub struct Wardrobe {
+    pub tint: Option<Arc<Tint>>,
+    pub arrows: Option<Arc<ArrowSet>>,
+    /// As a multiple of the mean length of the edges.
+    pub arrow_length: f32,
+}
+
+/// What was drawn.
+struct Drawn {
+    camera: Camera,
+    style: Style,
+    tint: Option<Arc<Tint>>,
+    arrows: Option<(Arc<ArrowSet>, f32)>,
+}
+
+impl PartialEq for Drawn {
+    fn eq(&self, other: &Self) -> bool {
+        let arrows = |drawn: &Self| drawn.arrows.as_ref().map(|(arrows, length)| (Arc::as_ptr(arrows), *length));
+        (self.camera, self.style) == (other.camera, other.style)
+            && same(self.tint.as_ref(), other.tint.as_ref())
+            && arrows(self) == arrows(other)
+    }
 }
 
 struct Uploading {
@@ -58,6 +85,7 @@ impl Picture {
             uploading: None,
             refused: None,
             tint: None,
+            arrows: None,
             drawn: None,
             drawings: 0,
         })
@@ -71,7 +99,7 @@ impl Picture {
         &mut self,
         size: Size,
         scene: &Arc<Scene>,
-        tint: Option<&Arc<Tint>>,
+        dress: &Wardrobe,
         camera: &Camera,
         style: &Style,
     ) -> Result<TextureId, RenderError> {
@@ -82,14 +110,24 @@ impl Picture {
         // A scene that is still on its way is not the one these colours are for.
         let arrived = self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene));
         if arrived {
-            self.upload_tint(tint)?;
+            self.upload_tint(dress.tint.as_ref())?;
+            self.upload_arrows(dress.arrows.as_ref())?;
         }
-        let tint = self.tint.as_ref().map(|(tint, _)| tint);
-        let is_drawn = self.drawn.as_ref().is_some_and(|(c, s, t)| (c, s) == (camera, style) && same(t.as_ref(), tint));
-        if !is_drawn && let (Some(target), Some((_, uploaded))) = (&self.target, &self.uploaded) {
-            let dress = Dress { tint: self.tint.as_ref().map(|(tint, words)| (&**tint, words)) };
+        let wanted = Drawn {
+            camera: *camera,
+            style: *style,
+            tint: self.tint.as_ref().map(|(tint, _)| Arc::clone(tint)),
+            arrows: self.arrows.as_ref().map(|(arrows, _)| (Arc::clone(arrows), dress.arrow_length)),
+        };
+        if self.drawn.as_ref() != Some(&wanted)
+            && let (Some(target), Some((_, uploaded))) = (&self.target, &self.uploaded)
+        {
+            let dress = Dress {
+                tint: self.tint.as_ref().map(|(tint, words)| (&**tint, words)),
+                arrows: self.arrows.as_ref().map(|(_, arrows)| (arrows, dress.arrow_length)),
+            };
             self.renderer.draw(target, uploaded, dress, camera, style)?;
-            self.drawn = Some((*camera, *style, tint.cloned()));
+            self.drawn = Some(wanted);
             self.drawings += 1;
         }
         Ok(texture)
@@ -102,6 +140,16 @@ impl Picture {
             (Some(tint), Some((old, words))) if Arc::ptr_eq(&old.words, &tint.words) => Some((Arc::clone(tint), words)),
             (Some(tint), _) => Some((Arc::clone(tint), self.renderer.upload_tint(tint)?)),
         };
+        Ok(())
+    }
+
+    fn upload_arrows(&mut self, arrows: Option<&Arc<ArrowSet>>) -> Result<(), RenderError> {
+        if !same(self.arrows.as_ref().map(|(arrows, _)| arrows), arrows) {
+            self.arrows = match arrows {
+                Some(arrows) => Some((Arc::clone(arrows), self.renderer.upload_arrows(arrows)?)),
+                None => None,
+            };
+        }
         Ok(())
     }
 
@@ -125,7 +173,7 @@ impl Picture {
         self.drawn = None;
         match result {
             Ok(uploaded) => {
-                self.tint = None; // it is of the scene before
+                (self.tint, self.arrows) = (None, None); // they are of the scene before
                 release(self.uploaded.replace((Arc::clone(scene), uploaded)));
             }
             // Perhaps there is room without the one before.
@@ -176,7 +224,7 @@ impl Picture {
     }
 }
 
-fn same(a: Option<&Arc<Tint>>, b: Option<&Arc<Tint>>) -> bool {
+fn same<T>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
     match (a, b) {
         (Some(a), Some(b)) => Arc::ptr_eq(a, b),
         (None, None) => true,

@@ -12,9 +12,9 @@ use eframe::egui_wgpu::RenderState;
 use vv::diagnostic::Severity;
 
 use super::overlay::Overlay;
-use super::picture::Picture;
+use super::picture::{Picture, Wardrobe};
 use super::widgets::{grouped, menu_item, seconds};
-use super::{clicks, gizmo, legend, marks, theme};
+use super::{clicks, gizmo, labels, legend, marks, theme};
 use crate::command::{Command, Inspect, ViewAction};
 use crate::render::{RenderError, Size};
 use crate::scene::{Style, Theme};
@@ -36,6 +36,8 @@ const MENU: &[&[Command]] = &[
 pub struct Viewport {
     picture: Picture,
     hands: Hands,
+    labels: labels::Labels,
+    wake: Arc<dyn Fn() + Send + Sync>,
 }
 
 impl Viewport {
@@ -44,7 +46,8 @@ impl Viewport {
     /// # Errors
     /// If the driver refuses a pipeline.
     pub fn new(state: RenderState, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, RenderError> {
-        Ok(Self { picture: Picture::new(state, wake)?, hands: Hands::default() })
+        let picture = Picture::new(state, Arc::clone(&wake))?;
+        Ok(Self { picture, hands: Hands::default(), labels: labels::Labels::default(), wake })
     }
 
     /// Shows it, called `name` for those who cannot see it. Takes [`Session::fit`].
@@ -89,8 +92,12 @@ impl Viewport {
         });
         session.view = Some((size, style));
         let colors = session.colors();
-        let tint = colors.as_ref().and_then(|colors| colors.as_ref().ok());
-        match self.picture.texture(size, &frame.scene, tint, &camera, &style) {
+        let dress = Wardrobe {
+            tint: colors.as_ref().and_then(|colors| colors.as_ref().ok()).cloned(),
+            arrows: session.arrows(),
+            arrow_length: session.document.annotations.arrow_length,
+        };
+        match self.picture.texture(size, &frame.scene, &dress, &camera, &style) {
             Ok(texture) => {
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                 ui.painter().image(texture, rect, whole, Color32::WHITE);
@@ -107,6 +114,8 @@ impl Viewport {
         let _span = trace::span("window: marks");
         let inks = Overlay::new(ui, rect, camera, &frame.scene, &style);
         let spread = camera.spread(f64::from(2.0 * clicks::NEAR / rect.height()));
+        let labels = &session.document.annotations.labels;
+        self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         clicks::take(ui, &response, &inks, session, &frame, spread, commands);
         marks::show(ui, &inks, session, &frame);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera));

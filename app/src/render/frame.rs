@@ -87,16 +87,20 @@ pub(super) struct Layer {
     faintest: f32,
 }
 
-/// How many layers there are: the mesh, the control mesh, and what of the control mesh lies behind faces.
-pub(super) const LAYERS: usize = 3;
+/// How many layers there are: the mesh, the control mesh, what of the control mesh lies behind faces, and arrows.
+pub(super) const LAYERS: usize = 4;
 const MESH: usize = 0;
 const CONTROL: usize = 1;
 const HIDDEN_CONTROL: usize = 2;
+pub(super) const ARROWS: usize = 3;
 
 /// Edges of the boundary are this many times as wide as others.
 const STRONG: f32 = 2.2;
 /// Opacity of what shows through the surface.
 const HIDDEN: f32 = 0.22;
+/// Points that arrows and their heads are wide and long.
+const ARROW_WIDTH: f32 = 1.4;
+const ARROW_HEAD: f32 = 8.0;
 /// Opacity of crowded lines where there is nothing but lines.
 const FAINTEST: f32 = 0.15;
 /// As in `shaders/edges.wgsl`: points between lines below which they are not drawn.
@@ -196,7 +200,8 @@ fn ground(scene: &Uploaded) -> (Vec4, Vec4) {
     (grid.as_vec4(), lines.as_vec4())
 }
 
-pub(super) fn layers(scene: &Uploaded, style: &Style, scale: f32) -> [Layer; LAYERS] {
+/// `arrow` is the length in scene units of arrows of length 1.
+pub(super) fn layers(scene: &Uploaded, style: &Style, arrow: f32, scale: f32) -> [Layer; LAYERS] {
     let palette = palette(style.theme);
     let spacing = |part: &Option<PartBuffers>| part.as_ref().map_or(0.0, |p| p.mean_edge);
     let mesh = Layer {
@@ -226,7 +231,14 @@ pub(super) fn layers(scene: &Uploaded, style: &Style, scale: f32) -> [Layer; LAY
         faintest: FAINTEST,
         ..mesh
     };
-    [mesh, control, Layer { opacity: HIDDEN, ..control }]
+    let arrows = Layer {
+        line: linear(palette.arrow),
+        line_width: ARROW_WIDTH * scale,
+        point_size: ARROW_HEAD * scale,
+        spacing: arrow,
+        ..mesh
+    };
+    [mesh, control, Layer { opacity: HIDDEN, ..control }, arrows]
 }
 
 /// Which of the two meshes.

@@ -7,7 +7,7 @@ use image::RgbaImage;
 use super::frame::Tile;
 use super::palette::{to_linear, to_srgb};
 use super::{Dress, NoRenderer, RenderError, Renderer, Size, Target, Uploaded, device_descriptor};
-use crate::annotate::Tint;
+use crate::annotate::{ArrowSet, Tint};
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
@@ -45,6 +45,8 @@ pub fn render_image(
 pub struct Dressing<'a> {
     /// The colours of its faces.
     pub tint: Option<&'a Tint>,
+    /// Arrows, and how long they are as a multiple of the mean length of the edges.
+    pub arrows: Option<(&'a ArrowSet, f32)>,
 }
 
 impl Headless {
@@ -107,7 +109,14 @@ impl Headless {
         }
         let uploaded = self.renderer.upload(scene)?;
         let words = dressing.tint.map(|tint| self.renderer.upload_tint(tint)).transpose()?;
-        let dress = Dress { tint: dressing.tint.zip(words.as_ref()) };
+        let arrows = match dressing.arrows {
+            Some((set, length)) => Some((self.renderer.upload_arrows(set)?, length)),
+            None => None,
+        };
+        let dress = Dress {
+            tint: dressing.tint.zip(words.as_ref()),
+            arrows: arrows.as_ref().map(|(arrows, length)| (arrows, *length)),
+        };
         let side = TILE.min(self.renderer.device.limits().max_texture_dimension_2d);
         let mut image = RgbaImage::new(width, height);
         for top in (0..height).step_by(side as usize) {

@@ -23,6 +23,7 @@ pub(super) struct Palette {
     /// The line along a cut.
     pub cut: [u8; 4],
     pub grid: [u8; 4],
+    pub arrow: [u8; 4],
 }
 
 const LIGHT: Palette = Palette {
@@ -38,6 +39,7 @@ const LIGHT: Palette = Palette {
     control: [0xc8, 0x1e, 0x5a, 0xff],
     cut: [0x0c, 0x2d, 0x57, 0xff],
     grid: [0x5a, 0x6b, 0x80, 0xa0],
+    arrow: [0x6a, 0x1b, 0x9a, 0xff],
 };
 
 const DARK: Palette = Palette {
@@ -53,6 +55,7 @@ const DARK: Palette = Palette {
     control: [0xff, 0x6f, 0x9f, 0xff],
     cut: [0xcd, 0xe4, 0xff, 0xff],
     grid: [0x8c, 0x9a, 0xad, 0x90],
+    arrow: [0xe6, 0xb4, 0xff, 0xff],
 };
 
 pub(super) fn palette(theme: Theme) -> &'static Palette {

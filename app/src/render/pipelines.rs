@@ -20,6 +20,7 @@ pub(super) struct Pipelines {
     /// The same in colours.
     tinted_faces: [wgpu::RenderPipeline; 2],
     pub grid: wgpu::RenderPipeline,
+    pub arrows: wgpu::RenderPipeline,
     edges: wgpu::RenderPipeline,
     vertices: wgpu::RenderPipeline,
     hidden_edges: wgpu::RenderPipeline,
@@ -100,6 +101,7 @@ impl Pipelines {
             faces: faces("faces", "vertex", const { &[Some(CORNER)] }),
             tinted_faces: faces("tinted faces", "vertex_with_tint", const { &[Some(CORNER), Some(WORD)] }),
             grid: flat(Pass { name: "grid", shader: shaders::GRID, ..whole }),
+            arrows: lines("arrows", shaders::ARROWS, GreaterEqual),
             edges: lines("edges", shaders::EDGES, GreaterEqual),
             vertices: lines("vertices", shaders::VERTICES, GreaterEqual),
             hidden_edges: lines("hidden edges", shaders::EDGES, Less),

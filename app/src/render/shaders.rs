@@ -19,6 +19,16 @@ pub const EDGES: &str =
 pub const VERTICES: &str =
     concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/vertices.wgsl"));
 
+/// Arrows.
+pub const ARROWS: &str =
+    concat!(include_str!("../../../shaders/frame.wgsl"), include_str!("../../../shaders/arrows.wgsl"));
+
 /// All of them by name.
-pub const ALL: [(&str, &str); 5] =
-    [("background", BACKGROUND), ("faces", FACES), ("grid", GRID), ("edges", EDGES), ("vertices", VERTICES)];
+pub const ALL: [(&str, &str); 6] = [
+    ("background", BACKGROUND),
+    ("faces", FACES),
+    ("grid", GRID),
+    ("arrows", ARROWS),
+    ("edges", EDGES),
+    ("vertices", VERTICES),
+];

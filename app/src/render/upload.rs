@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::RenderError;
 use super::pipelines::Pipelines;
-use crate::annotate::Tint;
+use crate::annotate::{ArrowSet, Tint};
 use crate::scene::{Corner, Part, Scene, Sphere, Style};
 
 /// Data is handed over in pieces of this many bytes, which bounds what the driver must keep beside it.
@@ -32,6 +32,28 @@ impl UploadedTint {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, tint: &Tint) -> Self {
         let upload = Upload { device, queue };
         Self { words: upload.buffer("tint", wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&tint.words)) }
+    }
+}
+
+/// Arrows in the memory of the GPU; for the scene they were made for.
+#[derive(Debug)]
+pub struct UploadedArrows {
+    pub(super) bindings: wgpu::BindGroup,
+    pub(super) count: u32,
+    /// Mean length of the edges in scene units.
+    pub(super) mean_edge: f32,
+}
+
+impl UploadedArrows {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, pipelines: &Pipelines, set: &ArrowSet) -> Self {
+        let upload = Upload { device, queue };
+        let arrows = upload.buffer("arrows", wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&set.arrows));
+        let bindings = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("arrows"),
+            layout: &pipelines.part_layout,
+            entries: &[0, 1].map(|binding| wgpu::BindGroupEntry { binding, resource: arrows.as_entire_binding() }),
+        });
+        Self { bindings, count: set.arrows.len() as u32, mean_edge: set.mean_edge }
     }
 }
 

@@ -13,7 +13,7 @@ use vv::mesh::{Mesh, Values, Vertex};
 use vv::stop::{Stop, Stopped};
 
 use edges::{Sides, Walked};
-pub use pack::{pack, pack_color};
+pub use pack::{pack, pack_color, unpack};
 
 /// A vertex as the GPU reads it: five words.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

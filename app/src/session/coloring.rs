@@ -8,8 +8,9 @@ use vv::stop::{Stop, Stopped};
 
 use super::Session;
 use crate::annotate::cell::Colors;
-use crate::annotate::{Annotations, Quantity};
+use crate::annotate::{Annotations, ArrowSet, Arrows, Label, Quantity};
 use crate::camera::Camera;
+use crate::command::Command;
 use crate::render::{Dressing, RenderError, Size, render_image};
 use crate::scene::Style;
 use crate::trace;
@@ -40,7 +41,10 @@ pub(super) fn drawn(
 ) -> Result<RgbaImage, RenderError> {
     frame.colors.find(&frame.subject(), asked, &Stop::new());
     let tint = frame.colors.colors(&asked.color_by).and_then(Result::ok);
-    render_image(&frame.scene, Dressing { tint: tint.as_deref() }, camera, style, size)
+    let arrows = frame.colors.arrows(&asked.arrows);
+    let dressing =
+        Dressing { tint: tint.as_deref(), arrows: arrows.as_deref().map(|arrows| (arrows, asked.arrow_length)) };
+    render_image(&frame.scene, dressing, camera, style, size)
 }
 
 impl Session {
@@ -50,6 +54,28 @@ impl Session {
     pub fn colors(&self) -> Option<Colors> {
         let quantity = &self.document.annotations.color_by;
         self.frame.as_ref().filter(|_| *quantity != Quantity::Plain)?.colors.colors(quantity)
+    }
+
+    /// The arrows that are asked for of the frame shown; `None` while they are not found.
+    #[must_use]
+    pub fn arrows(&self) -> Option<Arc<ArrowSet>> {
+        self.frame.as_ref()?.colors.arrows(&self.document.annotations.arrows)
+    }
+
+    /// Carries out what concerns them; what is asked for again is gone.
+    pub(super) fn annotate(&mut self, command: Command) {
+        let annotations = &mut self.document.annotations;
+        match command {
+            Command::SetAnnotations(all) => *annotations = all,
+            Command::ColorBy(quantity) if annotations.color_by != quantity => {
+                (annotations.color_by, annotations.range) = (quantity, None);
+            }
+            Command::LabelBy(label) if annotations.labels == label => annotations.labels = Label::Nothing,
+            Command::LabelBy(label) => annotations.labels = label,
+            Command::ArrowsOf(arrows) if annotations.arrows == arrows => annotations.arrows = Arrows::Nothing,
+            Command::ArrowsOf(arrows) => annotations.arrows = arrows,
+            _ => {}
+        }
     }
 
     /// Begins to find what is asked for and not known. What was asked for before is stopped.

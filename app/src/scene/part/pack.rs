@@ -15,6 +15,15 @@ pub fn pack(n: Vec3) -> u32 {
     }
 }
 
+/// The unit vector that was packed, nearly.
+#[must_use]
+pub fn unpack(word: u32) -> Vec3 {
+    let [x, y] = [word as u16, (word >> 16) as u16].map(|c| f32::from(c.cast_signed()) / 32767.0);
+    let square = Vec2::new(x, y);
+    let z = 1.0 - x.abs() - y.abs();
+    (square - (-z).max(0.0) * sign(square)).extend(z).normalize_or_zero()
+}
+
 /// To the nearest, halves away from zero.
 fn round(x: f32) -> i16 {
     // `f32::round` is a call on processors that vv runs on.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use app::annotate::{Field, Quantity, Subject, Tint};
+use app::annotate::{ArrowSet, Arrows, Field, Quantity, Subject, Tint};
 use app::inspect::lineage::Lineage;
 use app::render::Dressing;
 use app::scene::{Axis, Cut, Surface};
@@ -96,10 +96,11 @@ fn tinted(mesh: &Mesh, quantity: &Quantity, style: &Style) -> RgbaImage {
     let scene = scene(mesh);
     let faces = faces(mesh, &Stop::new()).unwrap();
     let lineage = Lineage::default();
-    let subject = Subject { mesh, faces: &faces, scene: &scene, generation: 0, before: None, lineage: &lineage };
+    let subject =
+        Subject { mesh, faces: &faces, scene: &scene, generation: 0, before: None, lineage: &lineage, tint: None };
     let field = Field::new(&subject, quantity, &Stop::new()).unwrap();
     let tint = Tint::of(Arc::new(field), &scene, None);
-    let dressing = Dressing { tint: Some(&tint) };
+    let dressing = Dressing { tint: Some(&tint), arrows: None };
     headless().dressed_image(&scene, dressing, &from_front(&scene), style, SIZE).unwrap()
 }
 
@@ -140,4 +141,30 @@ fn the_grid_lies_below_the_mesh_and_reaches_around_it() {
     assert!(upper - upper_without < lower - lower_without);
     let middle = |picture: &RgbaImage| *picture.get_pixel(SIZE.width / 2, SIZE.height / 2);
     assert_eq!(middle(&picture), middle(&without), "the mesh hides it");
+}
+
+#[test]
+fn normals_stand_out_of_the_outline() {
+    let mesh = ball(10);
+    let scene = scene(&mesh);
+    let faces = faces(&mesh, &Stop::new()).unwrap();
+    let lineage = Lineage::default();
+    let subject = Subject {
+        mesh: &mesh,
+        faces: &faces,
+        scene: &scene,
+        generation: 0,
+        before: None,
+        lineage: &lineage,
+        tint: None,
+    };
+    let set = ArrowSet::new(&subject, &Arrows::VertexNormals, &Stop::new()).unwrap();
+    let camera = Camera { distance: 1.5 * from_front(&scene).distance, ..from_front(&scene) };
+    let drawn = |length| {
+        let dressing = Dressing { tint: None, arrows: Some((&set, length)) };
+        headless().dressed_image(&scene, dressing, &camera, &plain(), SIZE).unwrap()
+    };
+    let reach = |picture: &RgbaImage| picture.enumerate_pixels().filter(|(.., p)| p.0[3] > 0).map(|(x, ..)| x).max();
+    let (none, short, long) = (reach(&drawn(0.0)), reach(&drawn(0.5)), reach(&drawn(1.0)));
+    assert!(none < short && short < long, "{none:?} {short:?} {long:?}");
 }

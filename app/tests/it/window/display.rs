@@ -1,6 +1,6 @@
 //! How the mesh is drawn and what is shown on it.
 
-use app::annotate::Quantity;
+use app::annotate::{Arrows, Label, Quantity};
 use app::scene::{Axis, Surface};
 
 use super::*;
@@ -20,7 +20,7 @@ fn colored(window: &mut Harness<'static, App>) {
 #[test]
 fn a_quantity_is_chosen_from_a_list_and_explained_beside_the_mesh() {
     let mut window = octahedron();
-    unfold(&mut window, "Colours");
+
     choose(&mut window, "Colour by", "valence");
     colored(&mut window);
     assert_eq!(window.state().session().document.annotations.color_by, Quantity::Valence);
@@ -37,7 +37,7 @@ fn properties_of_the_program_are_offered_and_their_range_can_be_set() {
     let mut window = octahedron();
     write(&mut window, "vertex { double heat = 0.0; };\nvoid f(mesh& S) { forall v in S v$heat = v$pos.x; }\n");
     click(&mut window, "Step");
-    unfold(&mut window, "Colours");
+
     choose(&mut window, "Colour by", "heat");
     colored(&mut window);
     let low = window.get_by_label("From").rect().center();
@@ -109,4 +109,31 @@ fn surface_grid_and_axes_are_switched() {
     assert!(is_on(&window, "Grid") && is_on(&window, "Axes"));
     let style = window.state().session().document.style;
     assert!(style.grid && style.axes);
+}
+
+#[test]
+fn vertices_are_labelled_by_key_and_what_else_is_written_by_choice() {
+    let mut window = octahedron();
+    press(&mut window, Key::I);
+    assert_eq!(window.state().session().document.annotations.labels, Label::Vertices);
+    unfold(&mut window, "Labels and arrows");
+    choose(&mut window, "Label by", "corners of faces");
+    assert_eq!(window.state().session().document.annotations.labels, Label::Degrees);
+    press(&mut window, Key::I);
+    press(&mut window, Key::I);
+    assert_eq!(window.state().session().document.annotations.labels, Label::Nothing);
+}
+
+#[test]
+fn arrows_are_chosen_and_made_longer() {
+    let mut window = octahedron();
+    unfold(&mut window, "Labels and arrows");
+    choose(&mut window, "Arrows of", "normals of faces");
+    until(&mut window, "the arrows are known", |s| s.arrows().is_some());
+    assert_eq!(window.state().session().arrows().unwrap().arrows.len(), 8);
+    window.run_steps(2);
+    window.get_by_label("Length of arrows");
+    window.key_press_modifiers(Modifiers::SHIFT, Key::N);
+    settle(&mut window);
+    assert_eq!(window.state().session().document.annotations.arrows, Arrows::VertexNormals);
 }
