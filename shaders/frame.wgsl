@@ -23,7 +23,7 @@ struct Frame {
     parallel: f32, // depth per length where lines of sight are parallel, else 0
     surface: u32, // how the surface shows its quality, see surface.wgsl
     tint: u32, // how the words of corners are read, see tint.wgsl
-    padding: u32,
+    reach: f32, // of ambient occlusion, in scene coordinates
     window: vec2<f32>, // of the numbers of corners, see tint.wgsl
     // What is cut away: dot(clip.xyz, p) > clip.w in scene coordinates.
     clip: vec4<f32>,

@@ -156,6 +156,8 @@ pub enum Command {
     Cut,
     /// The grid on and off.
     Grid,
+    /// Ambient occlusion on and off.
+    Occlusion,
     /// The axes on and off.
     Axes,
     /// From where it is seen.
@@ -359,6 +361,9 @@ impl Command {
             Self::Cut => ("Cut open", "cut away what lies on one side of a plane", const { &[key(Key::X)] }),
             Self::Grid => ("Grid", "draw a grid on the ground, with the axes", const { &[key(Key::G)] }),
             Self::Axes => ("Axes", "show the directions of the axes in a corner", const { &[key(Key::A)] }),
+            Self::Occlusion => {
+                ("Ambient occlusion", "darken hollows, where little of the sky is seen", const { &[key(Key::O)] })
+            }
             Self::ShowBy(Surface::Lights) => ("Lights", "see the surface by its light alone", &[]),
             Self::ShowBy(Surface::ReflectionLines) => {
                 ("Reflection lines", "see how even the surface is by the mirror images of long lamps", &[])
@@ -486,6 +491,7 @@ impl Command {
             Self::Cut => style.cut.on,
             Self::Grid => style.grid,
             Self::Axes => style.axes,
+            Self::Occlusion => style.occlusion,
             Self::ShowBy(surface) => style.surface == *surface,
             Self::ColorBy(quantity) => session.document.annotations.color_by == *quantity,
             Self::Pair(action) => return action.is_on(session),

@@ -7,7 +7,7 @@
 //!   draw       Renderer + Target + Uploaded + Camera + Style → colour in the target
 //! ```
 //!
-//! The colour target is sRGB, so that light is added up linearly. Passes, in order: background, faces, grid, edges,
+//! The colour target is sRGB, so that light is added up linearly. Passes, in order: background, faces, occlusion, grid, edges,
 //! vertices, control mesh, arrows; lines and points blend over the faces, tested against their depth but writing none.
 
 mod frame;
@@ -217,8 +217,10 @@ impl Renderer {
         guarded(&self.device, || {
             target.write_uniforms(&self.queue, &frame, &layers);
             let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            // OpenGL cannot read several depths of a pixel everywhere.
+            let shaded = style.occlusion && style.faces && scene.faces.is_some() && !self.opengl;
             {
-                let mut pass = target.begin(&mut encoder);
+                let mut pass = target.begin(&mut encoder, true, !shaded);
                 if !style.transparent {
                     pass.set_pipeline(&self.pipelines.background);
                     target.bind(&mut pass, 0);
@@ -237,6 +239,11 @@ impl Renderer {
                     }
                     pass.set_index_buffer(faces.indices.slice(..), wgpu::IndexFormat::Uint32);
                     pass.draw_indexed(0..faces.index_count, 0, 0..1);
+                }
+                if shaded {
+                    drop(pass);
+                    target.shade(&mut encoder, &self.pipelines);
+                    pass = target.begin(&mut encoder, false, true);
                 }
                 if style.grid {
                     pass.set_pipeline(&self.pipelines.grid);

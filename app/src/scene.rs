@@ -67,6 +67,8 @@ pub struct Style {
     pub surface: Surface,
     /// Where the mesh is cut open.
     pub cut: Cut,
+    /// Darken hollows, where little of the sky is seen.
+    pub occlusion: bool,
     /// Draw a grid on the ground, with the axes of the world.
     pub grid: bool,
     /// Show the directions of the axes in a corner of the window.
@@ -154,6 +156,7 @@ impl Default for Style {
             vertex_size: 6.0,
             surface: Surface::Lights,
             cut: Cut::default(),
+            occlusion: false,
             grid: false,
             axes: false,
         }

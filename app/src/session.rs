@@ -532,6 +532,7 @@ impl Session {
             Command::ShowBy(surface) => self.change_style(|s| s.surface = surface),
             Command::Cut => self.change_style(|s| s.cut.on = !s.cut.on),
             Command::Grid => self.change_style(|s| s.grid = !s.grid),
+            Command::Occlusion => self.change_style(|s| s.occlusion = !s.occlusion),
             Command::Axes => self.change_style(|s| s.axes = !s.axes),
             Command::SetCamera(camera) => self.set_camera(camera),
             Command::View(action) => self.change_view(action),

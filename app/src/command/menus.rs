@@ -205,7 +205,7 @@ pub const MENUS: &[Menu] = &[
                 Command::ShowBy(Surface::ReflectionLines),
                 Command::ShowBy(Surface::Isophotes),
             ],
-            &[Command::Cut, Command::Grid, Command::Axes],
+            &[Command::Cut, Command::Occlusion, Command::Grid, Command::Axes],
         ],
     },
     Menu { title: "Help", groups: &[&[Command::Palette, Command::CheatSheet, Command::Reference]] },

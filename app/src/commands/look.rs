@@ -20,7 +20,7 @@ pub struct LookArguments {
     /// Draw arrows: vertex-normals, face-normals, or a vertex property of type vec.
     #[arg(long, value_name = "WHAT", value_parser = arrows)]
     arrows: Option<Arrows>,
-    /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, grid, dark,
+    /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, occlusion, grid, dark,
     /// transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out.
     #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word)]
     style: Vec<Word>,
@@ -75,12 +75,13 @@ impl LookArguments {
 #[derive(Debug, Clone, Copy)]
 struct Word(&'static str, bool);
 
-const WORDS: [&str; 11] = [
+const WORDS: [&str; 12] = [
     "faces",
     "edges",
     "vertices",
     "smooth",
     "colors",
+    "occlusion",
     "grid",
     "dark",
     "transparent",
@@ -108,6 +109,7 @@ impl Word {
             "vertices" => style.vertices = on,
             "smooth" => style.smooth = on,
             "colors" => style.colors = on,
+            "occlusion" => style.occlusion = on,
             "grid" => style.grid = on,
             "dark" => style.theme = if on { Theme::Dark } else { Theme::Light },
             "transparent" => style.transparent = on,

@@ -143,6 +143,7 @@ fn surface(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         }
     }
     ui.add_space(2.0);
+    switch(ui, session, commands, Command::Occlusion);
     switch(ui, session, commands, Command::Grid);
     switch(ui, session, commands, Command::Axes);
 }

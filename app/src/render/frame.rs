@@ -27,6 +27,14 @@ impl Tile {
         Self { picture, left: 0, top: 0, width: picture.width, height: picture.height }
     }
 
+    /// With so many pixels around it as the picture has.
+    pub(super) fn with_margin(self, margin: u32) -> Self {
+        let (left, top) = (self.left.saturating_sub(margin), self.top.saturating_sub(margin));
+        let right = (self.left + self.width + margin).min(self.picture.width);
+        let bottom = (self.top + self.height + margin).min(self.picture.height);
+        Self { left, top, width: right - left, height: bottom - top, ..self }
+    }
+
     /// Scale and shift from coordinates in the picture (−1 to 1, y up) to coordinates in the tile.
     fn transform(self) -> Vec4 {
         let picture = Vec2::new(self.picture.width.max(1) as f32, self.picture.height.max(1) as f32);
@@ -59,7 +67,7 @@ pub(super) struct Frame {
     parallel: f32,
     surface: u32,
     tint: u32,
-    padding: u32,
+    reach: f32,
     window: [f32; 2],
     clip: Vec4,
     cut: [f32; 4],
@@ -98,6 +106,8 @@ pub(super) const ARROWS: usize = 3;
 const STRONG: f32 = 2.2;
 /// Opacity of what shows through the surface.
 const HIDDEN: f32 = 0.22;
+/// How far ambient occlusion reaches, measured by the radius of the mesh.
+const REACH: f64 = 0.18;
 /// Points that arrows and their heads are wide and long.
 const ARROW_WIDTH: f32 = 1.4;
 const ARROW_HEAD: f32 = 8.0;
@@ -163,7 +173,7 @@ pub(super) fn frame(
         ground_lines: ground.1,
         grid_line: linear(palette.grid),
         window: tint.map_or([0.0, 1.0], Tint::window),
-        padding: 0,
+        reach: (scene.bounds(&Style { control: false, ..*style }).radius * REACH / scene.unit) as f32,
         scale_colors: tint.map_or([[0.0; 4]; SAMPLES], |tint| tint.samples().map(opaque)),
     }
 }

@@ -14,6 +14,9 @@ use crate::scene::{Scene, Style};
 /// Pictures are drawn in tiles of at most this many pixels a side, which bounds the memory of the GPU they take.
 const TILE: u32 = 2048;
 
+/// So many pixels around a tile are drawn with it where pixels ask their neighbours. As in `shaders/occlusion.wgsl`.
+const MARGIN: u32 = 152;
+
 /// Most pixels of a picture: a gigabyte.
 const MOST_PIXELS: u64 = 1 << 28;
 
@@ -117,15 +120,16 @@ impl Headless {
             tint: dressing.tint.zip(words.as_ref()),
             arrows: arrows.as_ref().map(|(arrows, length)| (arrows, *length)),
         };
-        let side = TILE.min(self.renderer.device.limits().max_texture_dimension_2d);
+        let side = TILE.min(self.renderer.device.limits().max_texture_dimension_2d - 2 * MARGIN);
         let mut image = RgbaImage::new(width, height);
         for top in (0..height).step_by(side as usize) {
             for left in (0..width).step_by(side as usize) {
                 let tile =
                     Tile { picture: size, left, top, width: side.min(width - left), height: side.min(height - top) };
-                let target = self.renderer.target(Size { width: tile.width, height: tile.height, scale })?;
-                self.renderer.draw_tile(&target, &uploaded, dress, camera, style, tile)?;
-                self.read(&target, &mut image, tile)?;
+                let drawn = if style.occlusion { tile.with_margin(MARGIN) } else { tile };
+                let target = self.renderer.target(Size { width: drawn.width, height: drawn.height, scale })?;
+                self.renderer.draw_tile(&target, &uploaded, dress, camera, style, drawn)?;
+                self.read(&target, &mut image, tile, [tile.left - drawn.left, tile.top - drawn.top])?;
             }
         }
         if style.transparent {
@@ -135,7 +139,7 @@ impl Headless {
     }
 
     /// Copies what was drawn into its place in the picture.
-    fn read(&self, target: &Target, image: &mut RgbaImage, tile: Tile) -> Result<(), RenderError> {
+    fn read(&self, target: &Target, image: &mut RgbaImage, tile: Tile, [x, y]: [u32; 2]) -> Result<(), RenderError> {
         let device = &self.renderer.device;
         let failed =
             |what: &str| RenderError::Failed(format!("the graphics driver did not give back the picture: {what}"));
@@ -149,12 +153,12 @@ impl Headless {
             });
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             encoder.copy_texture_to_buffer(
-                target.color.as_image_copy(),
+                wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x, y, z: 0 }, ..target.color.as_image_copy() },
                 wgpu::TexelCopyBufferInfo {
                     buffer: &buffer,
                     layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
                 },
-                target.color.size(),
+                wgpu::Extent3d { width: tile.width, height: tile.height, depth_or_array_layers: 1 },
             );
             self.renderer.queue.submit([encoder.finish()]);
             buffer

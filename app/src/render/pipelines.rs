@@ -6,6 +6,23 @@ use super::shaders;
 pub(super) const COLOR_BYTES: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
+/// One number from 0 to 1 at each pixel.
+pub(super) const OCCLUSION: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// What is there is multiplied with what is drawn; its opacity stays.
+const TIMES: wgpu::BlendState = wgpu::BlendState {
+    color: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::Dst,
+        dst_factor: wgpu::BlendFactor::Zero,
+        operation: wgpu::BlendOperation::Add,
+    },
+    alpha: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::Zero,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Add,
+    },
+};
+
 /// Colour of the target: sRGB, so that blending happens in linear light. OpenGL cannot show the bytes of such a texture
 /// as they are; there the shaders encode what they draw, and blending is a little less exact.
 pub(super) fn color_format(opengl: bool) -> wgpu::TextureFormat {
@@ -21,6 +38,8 @@ pub(super) struct Pipelines {
     tinted_faces: [wgpu::RenderPipeline; 2],
     pub grid: wgpu::RenderPipeline,
     pub arrows: wgpu::RenderPipeline,
+    pub occlusion: wgpu::RenderPipeline,
+    pub shadow: wgpu::RenderPipeline,
     edges: wgpu::RenderPipeline,
     vertices: wgpu::RenderPipeline,
     hidden_edges: wgpu::RenderPipeline,
@@ -29,6 +48,10 @@ pub(super) struct Pipelines {
     pub frame_layout: wgpu::BindGroupLayout,
     /// Group 1: corners and edges of one mesh.
     pub part_layout: wgpu::BindGroupLayout,
+    /// Group 1: depths.
+    pub depth_layout: wgpu::BindGroupLayout,
+    /// Group 1: depths and ambient occlusion.
+    pub shadow_layout: wgpu::BindGroupLayout,
 }
 
 /// What distinguishes one pass from another.
@@ -78,6 +101,14 @@ impl Pipelines {
             bind_group_layouts: &[Some(&frame_layout)],
             immediate_size: 0,
         });
+        let depths = texture(0, wgpu::TextureSampleType::Depth, samples > 1);
+        let occlusion = texture(1, wgpu::TextureSampleType::Float { filterable: false }, false);
+        let depth_layout = device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("depths"), entries: &[depths] });
+        let shadow_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("occlusion"),
+            entries: &[depths, occlusion],
+        });
         let whole = Pass {
             name: "",
             shader: "",
@@ -106,8 +137,26 @@ impl Pipelines {
             vertices: lines("vertices", shaders::VERTICES, GreaterEqual),
             hidden_edges: lines("hidden edges", shaders::EDGES, Less),
             hidden_vertices: lines("hidden vertices", shaders::VERTICES, Less),
+            occlusion: over_all(
+                device,
+                [&frame_layout, &depth_layout],
+                &shaders::occlusion(samples),
+                OCCLUSION,
+                1,
+                None,
+            ),
+            shadow: over_all(
+                device,
+                [&frame_layout, &shadow_layout],
+                &shaders::shadow(samples),
+                color,
+                samples,
+                Some(TIMES),
+            ),
             frame_layout,
             part_layout,
+            depth_layout,
+            shadow_layout,
         }
     }
 
@@ -120,6 +169,52 @@ impl Pipelines {
     pub(super) fn lines_and_points(&self, hidden: bool) -> (&wgpu::RenderPipeline, &wgpu::RenderPipeline) {
         if hidden { (&self.hidden_edges, &self.hidden_vertices) } else { (&self.edges, &self.vertices) }
     }
+}
+
+/// A pass over all pixels without depth.
+fn over_all(
+    device: &wgpu::Device,
+    groups: [&wgpu::BindGroupLayout; 2],
+    shader: &str,
+    format: wgpu::TextureFormat,
+    samples: u32,
+    blend: Option<wgpu::BlendState>,
+) -> wgpu::RenderPipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("over all"),
+        source: wgpu::ShaderSource::Wgsl(shader.into()),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("over all"),
+        bind_group_layouts: &groups.map(Some),
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("over all"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &[Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn texture(binding: u32, sample_type: wgpu::TextureSampleType, multisampled: bool) -> wgpu::BindGroupLayoutEntry {
+    let ty = wgpu::BindingType::Texture { sample_type, view_dimension: wgpu::TextureViewDimension::D2, multisampled };
+    wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None }
 }
 
 fn uniform(binding: u32, has_dynamic_offset: bool) -> wgpu::BindGroupLayoutEntry {

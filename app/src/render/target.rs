@@ -2,7 +2,7 @@
 
 use super::Size;
 use super::frame::{Frame, LAYERS, Layer};
-use super::pipelines::{COLOR_BYTES, DEPTH, Pipelines};
+use super::pipelines::{COLOR_BYTES, DEPTH, OCCLUSION, Pipelines};
 
 /// Layers lie this far apart in their buffer: the largest alignment a driver may ask for.
 const LAYER_STRIDE: u64 = 256;
@@ -16,6 +16,9 @@ pub struct Target {
     /// Where several samples a pixel are drawn, before they are averaged into `color`.
     multisampled: Option<wgpu::TextureView>,
     depth: wgpu::TextureView,
+    occlusion: wgpu::TextureView,
+    depth_bindings: wgpu::BindGroup,
+    shadow_bindings: wgpu::BindGroup,
     frame: wgpu::Buffer,
     layers: wgpu::Buffer,
     bindings: wgpu::BindGroup,
@@ -63,11 +66,28 @@ impl Target {
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Buffer(one_layer) },
             ],
         });
+        let binding = wgpu::TextureUsages::TEXTURE_BINDING;
+        let depth = view(&texture("depth", DEPTH, samples, attachment | binding, &[]));
+        let occlusion = view(&texture("occlusion", OCCLUSION, 1, attachment | binding, &[]));
+        let views = [&depth, &occlusion];
+        let group = |layout, count| {
+            let entries: Vec<_> = (0..)
+                .zip(&views[..count])
+                .map(|(binding, view)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: wgpu::BindingResource::TextureView(view),
+                })
+                .collect();
+            device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("depths"), layout, entries: &entries })
+        };
         Self {
+            depth_bindings: group(&pipelines.depth_layout, 1),
+            shadow_bindings: group(&pipelines.shadow_layout, 2),
+            occlusion,
+            depth,
             size,
             color_view: view(&color),
             multisampled: (samples > 1).then(|| view(&texture("samples", format, samples, attachment, &[]))),
-            depth: view(&texture("depth", DEPTH, samples, attachment, &[])),
             color,
             frame,
             layers,
@@ -94,31 +114,68 @@ impl Target {
         }
     }
 
-    pub(super) fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
-        let (view, resolve_target) = match &self.multisampled {
-            Some(samples) => (samples, Some(&self.color_view)),
-            None => (&self.color_view, None),
-        };
-        let discard_if_resolved = if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+    /// Begins to draw into it: `first` over nothing, later over what is there; after what is `last` depths are forgotten.
+    pub(super) fn begin<'a>(
+        &self,
+        encoder: &'a mut wgpu::CommandEncoder,
+        first: bool,
+        last: bool,
+    ) -> wgpu::RenderPass<'a> {
+        let load = if first { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("scene"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: discard_if_resolved,
-                },
-            })],
+            color_attachments: &[Some(self.attachment(load, last))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth,
-                // Reversed depth: zero is infinitely far.
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                depth_ops: Some(wgpu::Operations {
+                    // Reversed depth: zero is infinitely far.
+                    load: if first { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load },
+                    store: if last { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
+                }),
                 stencil_ops: None,
             }),
             ..Default::default()
         })
+    }
+
+    fn attachment(&self, load: wgpu::LoadOp<wgpu::Color>, last: bool) -> wgpu::RenderPassColorAttachment<'_> {
+        let (view, resolve_target) = match &self.multisampled {
+            Some(samples) => (samples, Some(&self.color_view).filter(|_| last)),
+            None => (&self.color_view, None),
+        };
+        let store = if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+        wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target,
+            ops: wgpu::Operations { load, store },
+        }
+    }
+
+    /// Darkens what was drawn where little of the sky is seen.
+    pub(super) fn shade(&self, encoder: &mut wgpu::CommandEncoder, pipelines: &Pipelines) {
+        let white = wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::WHITE), store: wgpu::StoreOp::Store };
+        let occlusion = wgpu::RenderPassColorAttachment {
+            view: &self.occlusion,
+            depth_slice: None,
+            resolve_target: None,
+            ops: white,
+        };
+        let picture = self.attachment(wgpu::LoadOp::Load, false);
+        for (pipeline, bindings, attachment) in [
+            (&pipelines.occlusion, &self.depth_bindings, occlusion),
+            (&pipelines.shadow, &self.shadow_bindings, picture),
+        ] {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("occlusion"),
+                color_attachments: &[Some(attachment)],
+                ..Default::default()
+            });
+            pass.set_pipeline(pipeline);
+            self.bind(&mut pass, 0);
+            pass.set_bind_group(1, bindings, &[]);
+            pass.draw(0..3, 0..1);
+        }
     }
 
     pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>, layer: usize) {

@@ -4,12 +4,12 @@ use app::render::shaders;
 
 #[test]
 fn every_shader_passes_validation() {
-    for (name, source) in shaders::ALL {
-        let module = naga::front::wgsl::parse_str(source)
-            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+    for (name, source) in shaders::all() {
+        let module = naga::front::wgsl::parse_str(&source)
+            .unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
         let mut validator =
             naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-        validator.validate(&module).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(source)));
+        validator.validate(&module).unwrap_or_else(|error| panic!("{name}: {}", error.emit_to_string(&source)));
     }
 }
 
@@ -19,7 +19,7 @@ fn every_file_of_shaders_is_used_and_begins_with_its_mathematics() {
     for file in std::fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
         let text = std::fs::read_to_string(&path).unwrap();
-        assert!(shaders::ALL.iter().any(|(_, source)| source.contains(&text)), "{} is not used", path.display());
+        assert!(shaders::all().iter().any(|(_, source)| source.contains(&text)), "{} is not used", path.display());
         assert!(text.starts_with("// "), "{} has no header", path.display());
     }
 }
