@@ -3,15 +3,18 @@
 // With p the point of a pixel in view coordinates, n its normal and q_i the points of pixels around it within the reach
 // r, v_i = q_i - p:
 //
-//   A = max(0, 1 - 5 / (r^6 N) sum max(r^2 - |v_i|^2, 0)^3 max((v_i.n - b) / (|v_i|^2 + e), 0))
+//   A = max(0, 1 - k / N sum max(n.v_i / |v_i| - b, 0) max(1 - |v_i|^2 / r^2, 0))
 //
-// (M. McGuire, M. Mara, D. Luebke, "Scalable ambient obscurance", 2012, equation 10.) The pixels lie on a spiral that is
-// turned differently at each pixel of a square of four by four, over which the next pass takes the mean. The normal is
-// that of the pixel and those of its neighbours that are nearer in depth. 1 where nothing is seen.
+// so that what stands steeply above the surface and is near hides most (after L. Bavoil, M. Sainz, "Multi-layer
+// dual-resolution screen-space ambient occlusion", 2009). The pixels lie on a spiral that is turned differently at each
+// pixel of a square of four by four, over which the next pass takes the mean. The normal is that of the pixel and those
+// of its neighbours that are nearer in depth. 1 where nothing is seen.
 
-const SAMPLES_AROUND = 14u;
-const TURNS = 5.0; // of the spiral
-const FARTHEST = 150.0; // pixels
+const SAMPLES_AROUND = 20u;
+const STRENGTH = 5.0; // k
+const BIAS = 0.06; // b
+const TURNS = 7.0; // of the spiral
+const FARTHEST = 200.0; // pixels
 
 // The place of a pixel in view coordinates; in pixels from the tile's upper left corner.
 fn place(at: vec2<i32>, depth: f32) -> vec3<f32> {
@@ -59,7 +62,9 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if pixels < 2.0 {
         return vec4(1.0);
     }
-    let turn = f32(((at.x & 3) << 2u) ^ (at.y & 3) ^ ((at.y & 3) << 2u)) / 16.0;
+    let cross_wise = at.x ^ at.y;
+    let order = ((cross_wise & 1) << 3u) | ((at.y & 1) << 2u) | (cross_wise & 2) | ((at.y >> 1u) & 1); // Bayer's
+    let turn = f32(order) / 16.0;
     var sum = 0.0;
     for (var i = 0u; i < SAMPLES_AROUND; i++) {
         let t = (f32(i) + 0.5) / f32(SAMPLES_AROUND);
@@ -70,10 +75,9 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
             continue;
         }
         let v = place(other, d) - p;
-        let vv = dot(v, v) / (reach * reach);
-        let vn = dot(v, n) / reach;
-        let near = max(1.0 - vv, 0.0);
-        sum += near * near * near * max((vn - 0.02) / (vv + 0.01), 0.0);
+        let far = length(v);
+        let steep = dot(v, n) / max(far, 1e-6 * reach);
+        sum += max(steep - BIAS, 0.0) * max(1.0 - far * far / (reach * reach), 0.0);
     }
-    return vec4(max(0.0, 1.0 - sum * 1.6 / f32(SAMPLES_AROUND)));
+    return vec4(max(0.0, 1.0 - sum * STRENGTH / f32(SAMPLES_AROUND)));
 }

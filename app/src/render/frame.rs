@@ -107,7 +107,7 @@ const STRONG: f32 = 2.2;
 /// Opacity of what shows through the surface.
 const HIDDEN: f32 = 0.22;
 /// How far ambient occlusion reaches, measured by the radius of the mesh.
-const REACH: f64 = 0.18;
+const REACH: f64 = 0.6;
 /// Points that arrows and their heads are wide and long.
 const ARROW_WIDTH: f32 = 1.4;
 const ARROW_HEAD: f32 = 8.0;

@@ -15,7 +15,7 @@ use crate::scene::{Scene, Style};
 const TILE: u32 = 2048;
 
 /// So many pixels around a tile are drawn with it where pixels ask their neighbours. As in `shaders/occlusion.wgsl`.
-const MARGIN: u32 = 152;
+const MARGIN: u32 = 204;
 
 /// Most pixels of a picture: a gigabyte.
 const MOST_PIXELS: u64 = 1 << 28;

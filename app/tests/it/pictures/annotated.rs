@@ -168,3 +168,22 @@ fn normals_stand_out_of_the_outline() {
     let (none, short, long) = (reach(&drawn(0.0)), reach(&drawn(0.5)), reach(&drawn(1.0)));
     assert!(none < short && short < long, "{none:?} {short:?} {long:?}");
 }
+
+#[test]
+fn hollows_are_darker_and_what_stands_out_is_as_it_was() {
+    let brightness = |mesh: &Mesh, occlusion, at: [f64; 2]| {
+        let scene = scene(mesh);
+        let style = Style { occlusion, smooth: false, ..plain() };
+        let camera = Camera { world_from_view: DQuat::from_rotation_x(-1.1), ..standard(&scene, &style) };
+        let camera = scene.fit(camera, &style, SIZE.aspect());
+        let picture = headless().image(&scene, &camera, &style, SIZE).unwrap();
+        let [x, y] = [at[0] * f64::from(SIZE.width), at[1] * f64::from(SIZE.height)].map(|c| c as u32);
+        f64::from(picture.get_pixel(x, y).0[1])
+    };
+    let darker = |mesh: &Mesh, at| brightness(mesh, true, at) / brightness(mesh, false, at);
+    // From above into a box without lid: where its bottom meets the wall.
+    let inside = darker(&box_without_lid(), [0.5, 0.36]);
+    assert!(inside < 0.85, "{inside}");
+    let outside = darker(&ball(24), [0.5, 0.5]);
+    assert!(outside > 0.97, "{outside}");
+}

@@ -103,12 +103,12 @@ fn surface_grid_and_axes_are_switched() {
     assert_eq!(window.state().session().document.style.surface, Surface::Isophotes);
     click(&mut window, "Lights");
     assert_eq!(window.state().session().document.style.surface, Surface::Lights);
-    for key in [Key::G, Key::A] {
+    for key in [Key::G, Key::A, Key::O] {
         press(&mut window, key);
     }
     assert!(is_on(&window, "Grid") && is_on(&window, "Axes"));
     let style = window.state().session().document.style;
-    assert!(style.grid && style.axes);
+    assert!(style.grid && style.axes && style.occlusion);
 }
 
 #[test]
