@@ -28,9 +28,10 @@ struct Frame {
     // What is cut away: dot(clip.xyz, p) > clip.w in scene coordinates.
     clip: vec4<f32>,
     cut: vec4<f32>, // colour of the line along the cut
-    // The plane of the grid: its height, the distance of its lines and how far it reaches, in scene coordinates; 0.
+    // The plane of the grid: its height, the distance of its lines and how far it reaches, in scene coordinates; whether z
+    // points up, else y.
     ground: vec4<f32>,
-    // Scene coordinates x, z of the world's axes; and of a point where thick lines cross.
+    // Scene coordinates x and z, or y where z points up, of the world's axes; and of a point where thick lines cross.
     ground_lines: vec4<f32>,
     grid_line: vec4<f32>,
     scale_colors: array<vec4<f32>, 32>,

@@ -1,4 +1,5 @@
-// The grid on the ground: lines in a plane of equal height, every tenth thick, and the world's axes x and z.
+// The grid on the ground: lines in a plane of equal height, every tenth thick, and the world's axes in
+// it: x and z, or y where z points up.
 //
 // A pixel is covered by lines of one direction about as much as
 //   clamp(width / 2 + 1/2 - d / |d'|, 0, 1)      d the distance from the nearest one, |d'| its change from pixel to pixel
@@ -7,7 +8,7 @@
 
 struct Varying {
     @builtin(position) position: vec4<f32>,
-    @location(0) place: vec2<f32>, // x, z in scene coordinates
+    @location(0) place: vec2<f32>, // x and z, or y, in scene coordinates
     @location(1) depth: f32, // where lines of sight are parallel
 }
 
@@ -22,7 +23,9 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     var order = array<u32, 6>(0u, 1u, 2u, 2u, 1u, 3u);
     let which = order[index % 6u];
     let place = (vec2(f32(which & 1u), f32(which >> 1u)) * 2.0 - 1.0) * frame.ground.z;
-    var clip = to_tile(frame.clip_from_scene * vec4(place.x, frame.ground.x, place.y, 1.0));
+    let z_up = frame.ground.w > 0.0;
+    let at = select(vec3(place.x, frame.ground.x, place.y), vec3(place, frame.ground.x), z_up);
+    var clip = to_tile(frame.clip_from_scene * vec4(at, 1.0));
     let depth = clip.z;
     if frame.parallel > 0.0 {
         clip.z = 0.5;
@@ -49,7 +52,8 @@ fn fragment(in: Varying) -> Fragment {
     let fade = 1.0 - smoothstep(0.35, 1.0, length(in.place) / frame.ground.z);
     var color = vec4(frame.grid_line.rgb, frame.grid_line.a * max(fine * 0.45, coarse));
     color = mix(color, vec4(0.77, 0.16, 0.12, 1.0), axes.y);
-    color = mix(color, vec4(0.10, 0.32, 0.80, 1.0), axes.x);
+    let second = select(vec3(0.10, 0.32, 0.80), vec3(0.05, 0.40, 0.12), frame.ground.w > 0.0);
+    color = mix(color, vec4(second, 1.0), axes.x);
     let depth = select(in.position.z, clamp(in.depth, 0.0, 1.0), frame.parallel > 0.0);
     return Fragment(output(vec4(color.rgb, color.a * fade)), depth);
 }

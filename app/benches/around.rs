@@ -87,8 +87,12 @@ fn million() {
     scene.build_index();
     phase("fit", || scene.standard_view(&Style::default(), 1.6));
     let camera = scene.standard_view(&Style::default(), 1.6);
-    let pointer =
-        |x: f64, y: f64| Pointer { ray: camera.ray(DVec2::new(x, y)), spread: camera.spread(0.02), opaque: true };
+    let pointer = |x: f64, y: f64| Pointer {
+        ray: camera.ray(DVec2::new(x, y)),
+        spread: camera.spread(0.02),
+        opaque: true,
+        cut: None,
+    };
     phase("picking once, inside", || scene.pick(&pointer(0.1, 0.2)).unwrap());
     phase("picking a thousand times", || {
         (0..1000)

@@ -17,7 +17,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DVec3, Vec3};
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Ray, Up};
 use crate::trace;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
@@ -71,6 +71,8 @@ pub struct Style {
     pub occlusion: bool,
     /// Draw a grid on the ground, with the axes of the world.
     pub grid: bool,
+    /// Which axis points up from the ground.
+    pub up: Up,
     /// Show the directions of the axes in a corner of the window.
     pub axes: bool,
 }
@@ -123,10 +125,45 @@ pub enum Axis {
     View,
 }
 
-impl Cut {
-    /// What is cut away of the world: the points p with n · p > d; `None` if nothing is.
+/// A plane, of which one side is cut away: the points p with n · p > d.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// n, of length one.
+    pub normal: DVec3,
+    /// d.
+    pub place: f64,
+}
+
+impl Plane {
+    /// How far beyond it a point lies; up to 0 it is seen.
     #[must_use]
-    pub fn plane(&self, bounds: Sphere, camera: &Camera) -> Option<(DVec3, f64)> {
+    pub fn beyond(&self, p: DVec3) -> f64 {
+        self.normal.dot(p) - self.place
+    }
+
+    /// How far along a ray what is not cut away begins and ends.
+    #[must_use]
+    pub fn kept(&self, ray: Ray) -> [f64; 2] {
+        let (beyond, approach) = (self.beyond(ray.origin), self.normal.dot(ray.direction));
+        let t = -beyond / approach;
+        match (beyond > 0.0, approach < 0.0) {
+            (true, true) => [t, f64::INFINITY],
+            (true, false) => [f64::INFINITY, f64::INFINITY],
+            (false, true) => [0.0, f64::INFINITY],
+            (false, false) => [0.0, if t.is_nan() { f64::INFINITY } else { t }],
+        }
+    }
+
+    /// In the coordinates of a scene.
+    fn in_scene(self, scene: &Scene) -> Self {
+        Self { place: (self.place - self.normal.dot(scene.origin)) / scene.unit, ..self }
+    }
+}
+
+impl Cut {
+    /// What is cut away of the world; `None` if nothing is.
+    #[must_use]
+    pub fn plane(&self, bounds: Sphere, camera: &Camera) -> Option<Plane> {
         if !self.on {
             return None;
         }
@@ -137,7 +174,7 @@ impl Cut {
             Axis::View => camera.world_from_view * DVec3::Z,
         };
         let place = normal.dot(bounds.center) + f64::from(self.position) * bounds.radius;
-        Some(if self.flipped { (-normal, -place) } else { (normal, place) })
+        Some(if self.flipped { Plane { normal: -normal, place: -place } } else { Plane { normal, place } })
     }
 }
 
@@ -158,6 +195,7 @@ impl Default for Style {
             cut: Cut::default(),
             occlusion: false,
             grid: false,
+            up: Up::Y,
             axes: false,
         }
     }
@@ -184,8 +222,8 @@ pub struct Scene {
     pub mesh: Part,
     /// The control mesh, without triangles.
     pub control: Part,
-    /// World height of the lowest point of the mesh.
-    pub ground: f64,
+    /// The least coordinates of the mesh along each axis of the world.
+    pub lowest: DVec3,
     bounds: Sphere,
     bounds_with_control: Sphere,
     /// What is where: of the mesh, and of the control mesh.
@@ -200,7 +238,7 @@ impl Default for Scene {
             unit: 1.0,
             mesh: Part::default(),
             control: Part::default(),
-            ground: 0.0,
+            lowest: DVec3::ZERO,
             bounds,
             bounds_with_control: bounds,
             index: OnceLock::new(),
@@ -239,7 +277,7 @@ impl Scene {
                 Some((mesh, faces)) => Part::new(mesh, faces, &to_scene, part::Fill::Nothing, stop)?,
                 None => Part::default(),
             },
-            ground: if own.low.y.is_finite() { own.low.y } else { 0.0 },
+            lowest: if own.low.is_finite() { own.low } else { DVec3::ZERO },
             bounds,
             bounds_with_control,
             index: OnceLock::new(),
@@ -264,6 +302,12 @@ impl Scene {
     #[must_use]
     pub fn is_indexed(&self) -> bool {
         self.index.get().is_some()
+    }
+
+    /// What `style` cuts away; `None` if nothing is.
+    #[must_use]
+    pub fn cut(&self, style: &Style, camera: &Camera) -> Option<Plane> {
+        style.cut.plane(self.bounds, camera)
     }
 
     /// A ball around what `style` shows.

@@ -17,8 +17,8 @@ use vv::stop::{Stop, Stopped};
 
 use super::Subject;
 use super::scale::short;
-use crate::camera::{Camera, Ray, picture_point};
-use crate::scene::{Scene, Style, unpack};
+use crate::camera::{Camera, picture_point};
+use crate::scene::{Plane, Scene, Style, unpack};
 
 /// What is written.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -200,7 +200,7 @@ struct Cells<'a> {
     outlook: &'a Outlook,
     clip_from_world: glam::DMat4,
     /// What is cut away.
-    cut: Option<(DVec3, f64)>,
+    cut: Option<Plane>,
     cell: DVec2,
     columns: usize,
     rows: usize,
@@ -217,7 +217,7 @@ impl<'a> Cells<'a> {
             scene,
             outlook,
             clip_from_world: camera.clip_from_view(size.x / size.y) * camera.view_from_world(),
-            cut: style.cut.plane(scene.bounds(&Style { control: false, ..*style }), camera),
+            cut: scene.cut(style, camera),
             cell,
             columns,
             rows,
@@ -233,7 +233,7 @@ impl<'a> Cells<'a> {
         let place = DVec2::new(clip.x, -clip.y) / clip.w;
         // False, too, for what is no number.
         let inside = clip.w > 0.0 && place.abs().max_element() < 1.0;
-        if !inside || self.cut.is_some_and(|(n, d)| n.dot(p) > d) {
+        if !inside || self.cut.is_some_and(|cut| cut.beyond(p) > 0.0) {
             return;
         }
         let at = (place + 1.0) / 2.0 * size;
@@ -290,13 +290,6 @@ impl<'a> Cells<'a> {
             return false;
         }
         let ray = camera.ray(picture_point(at, *size));
-        self.scene.hides(behind_cut(ray, self.cut), p, 2e-3 * camera.distance)
+        self.scene.hides(ray, self.cut, p, 2e-3 * camera.distance)
     }
-}
-
-/// A ray that begins where what is cut away ends.
-fn behind_cut(ray: Ray, cut: Option<(DVec3, f64)>) -> Ray {
-    let Some((normal, place)) = cut else { return ray };
-    let t = (place - normal.dot(ray.origin)) / normal.dot(ray.direction);
-    if normal.dot(ray.origin) > place && t > 0.0 { Ray { origin: ray.origin + t * ray.direction, ..ray } } else { ray }
 }

@@ -6,7 +6,7 @@ use app::annotate::field::NoField;
 use app::annotate::{ArrowSet, Subject, Tint};
 use app::camera::Camera;
 use app::render::{self, Dressing, RenderError};
-use app::scene::Scene;
+use app::scene::{Scene, Style};
 use app::viewpoint::Viewpoint;
 use image::{ImageFormat, RgbaImage};
 use vv::stop::Stop;
@@ -59,6 +59,11 @@ pub struct Shot<'a> {
 pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<RgbaImage, Exit> {
     let look::Result { mesh, faces, past } = result;
     let Look { style, annotations } = shot.look;
+    let up = match shot.viewpoint {
+        Some(Viewpoint::From { up, .. }) => up,
+        _ => style.up,
+    };
+    let style = &Style { up, ..*style };
     let size = render::Size::new(shot.size.0, shot.size.1);
     let never = Stop::new();
     let Ok(scene) = Scene::new(mesh, faces, None, &never) else {

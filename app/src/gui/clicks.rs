@@ -47,7 +47,7 @@ pub fn take(
     commands: &mut Vec<Command>,
 ) {
     let opaque = session.document.style.faces;
-    let pick = |at: Pos2| frame.scene.pick(&Pointer { ray: overlay.ray(at), spread, opaque });
+    let pick = |at: Pos2| frame.scene.pick(&Pointer { ray: overlay.ray(at), spread, opaque, cut: overlay.cut() });
     if let Some(at) = response.hover_pos()
         && !response.dragged()
         && let Some(picked) = pick(at)

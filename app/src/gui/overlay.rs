@@ -10,7 +10,7 @@ use eframe::egui::{
 use glam::{DMat4, DVec2, DVec3};
 
 use crate::camera::{Camera, picture_point};
-use crate::scene::{Scene, Style};
+use crate::scene::{Plane, Scene, Style};
 
 /// How faint what is hidden is.
 const HIDDEN: f32 = 0.3;
@@ -83,6 +83,7 @@ pub struct Overlay<'a> {
     camera: Camera,
     scene: &'a Scene,
     opaque: bool,
+    cut: Option<Plane>,
     clip_from_world: DMat4,
     /// Its colours.
     pub inks: Inks,
@@ -99,6 +100,7 @@ impl<'a> Overlay<'a> {
             camera,
             scene,
             opaque: style.faces,
+            cut: scene.cut(style, &camera),
             clip_from_world: camera.clip_from_view(aspect) * camera.view_from_world(),
             inks: Inks::new(ui),
         }
@@ -111,11 +113,17 @@ impl<'a> Overlay<'a> {
         self.camera.ray(picture_point(of(at - self.rect.min), of(self.rect.size())))
     }
 
+    /// What is cut away.
+    #[must_use]
+    pub fn cut(&self) -> Option<Plane> {
+        self.cut
+    }
+
     /// Where a point is seen; `None` behind the eye, far outside the picture, and for what is nowhere.
     #[must_use]
     pub fn see(&self, p: DVec3) -> Option<Spot> {
         let at = self.project(p)?;
-        let hidden = self.opaque && self.scene.hides(self.ray(at), p, 2e-3 * self.camera.distance);
+        let hidden = self.opaque && self.scene.hides(self.ray(at), self.cut, p, 2e-3 * self.camera.distance);
         Some(Spot { at, hidden })
     }
 

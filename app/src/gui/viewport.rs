@@ -60,7 +60,7 @@ impl Viewport {
             news(ui, rect, session);
             return;
         };
-        let style = Style { theme: theme_of(ui), ..session.document.style };
+        let style = Style { theme: theme_of(ui), up: session.navigation.up, ..session.document.style };
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
         let _span = trace::span("window: viewport");
@@ -118,7 +118,7 @@ impl Viewport {
         self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         clicks::take(ui, &response, &inks, session, &frame, spread, commands);
         marks::show(ui, &inks, session, &frame);
-        let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera));
+        let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
         legend::show(ui, rect, session, &frame, colors.as_ref(), pointer);
         if style.axes {
             gizmo::show(ui, rect, &camera);

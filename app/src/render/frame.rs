@@ -9,8 +9,8 @@ use super::palette::{linear, opaque, palette};
 use super::upload::{PartBuffers, Uploaded};
 use crate::annotate::scale::SAMPLES;
 use crate::annotate::{Reading, Tint};
-use crate::camera::Camera;
-use crate::scene::{Style, Surface};
+use crate::camera::{Camera, Up};
+use crate::scene::{Plane, Style, Surface};
 
 /// Part of a picture, in pixels from its upper left corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -141,7 +141,7 @@ pub(super) fn frame(
     }
     // Whose lines of sight are parallel is infinitely far away.
     let seen_from = if camera.orthographic { camera.world_from_view * DVec3::new(0.0, 0.0, 1e6) } else { eye };
-    let ground = ground(scene);
+    let ground = ground(scene, style.up);
     Frame {
         view_from_scene: view_from_scene.as_mat4(),
         clip_from_scene: (clip_from_view * view_from_scene).as_mat4(),
@@ -181,14 +181,14 @@ pub(super) fn frame(
 /// What is cut away, in scene coordinates.
 fn clip(scene: &Uploaded, camera: &Camera, style: &Style) -> Vec4 {
     match style.cut.plane(scene.bounds(&Style { control: false, ..*style }), camera) {
-        Some((normal, place)) => normal.extend((place - normal.dot(scene.origin)) / scene.unit).as_vec4(),
+        Some(Plane { normal, place }) => normal.extend((place - normal.dot(scene.origin)) / scene.unit).as_vec4(),
         None => Vec4::new(0.0, 0.0, 0.0, 1.0),
     }
 }
 
 /// The grid: its height, the distance of its lines and its reach; and where its lines are. Distances of lines are 1, 2 or
 /// 5 times a power of ten in world units, some ten of them to the radius of what is seen.
-fn ground(scene: &Uploaded) -> (Vec4, Vec4) {
+fn ground(scene: &Uploaded, up: Up) -> (Vec4, Vec4) {
     let bounds = scene.bounds(&Style { control: false, ..Style::default() });
     let radius = if bounds.radius > 0.0 { bounds.radius } else { scene.unit };
     let wanted = radius / 10.0;
@@ -199,13 +199,18 @@ fn ground(scene: &Uploaded) -> (Vec4, Vec4) {
     let scene_place = |x: f64, origin: f64| (x - origin) / scene.unit;
     let origin = scene.origin;
     // A hair below the mesh, so that a flat one is not in it.
-    let height = scene_place(scene.ground - radius * 1e-3, origin.y);
-    let grid = DVec4::new(height, apart / scene.unit, 4.0 * radius / scene.unit, 0.0);
+    let (upright, across) = match up {
+        Up::Y => (1, 2),
+        Up::Z => (2, 1),
+    };
+    let height = scene_place(scene.lowest[upright] - radius * 1e-3, origin[upright]);
+    let z_up = f64::from(u8::from(up == Up::Z));
+    let grid = DVec4::new(height, apart / scene.unit, 4.0 * radius / scene.unit, z_up);
     let lines = DVec4::new(
         scene_place(0.0, origin.x),
-        scene_place(0.0, origin.z),
+        scene_place(0.0, origin[across]),
         scene_place(from.x, origin.x),
-        scene_place(from.z, origin.z),
+        scene_place(from[across], origin[across]),
     );
     (grid.as_vec4(), lines.as_vec4())
 }

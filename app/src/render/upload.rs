@@ -18,7 +18,7 @@ pub struct Uploaded {
     pub(super) faces: Option<FaceBuffers>,
     pub(super) mesh: Option<PartBuffers>,
     pub(super) control: Option<PartBuffers>,
-    pub(super) ground: f64,
+    pub(super) lowest: DVec3,
     bounds: [Sphere; 2],
 }
 
@@ -118,7 +118,7 @@ impl Uploaded {
             index_count: scene.mesh.triangles.len() as u32 * 3,
         });
         let bounds = [false, true].map(|control| scene.bounds(&Style { control, ..Style::default() }));
-        Self { origin: scene.origin, unit: scene.unit, faces, mesh, control, ground: scene.ground, bounds }
+        Self { origin: scene.origin, unit: scene.unit, faces, mesh, control, lowest: scene.lowest, bounds }
     }
 
     /// A ball around what `style` shows.

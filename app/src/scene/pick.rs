@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use vv::mesh::Vertex;
 
 use super::tree::{Bounds, Tree};
-use super::{Part, Scene};
+use super::{Part, Plane, Scene};
 use crate::camera::Ray;
 
 /// A ray from the eye that has some width.
@@ -20,6 +20,8 @@ pub struct Pointer {
     pub spread: f64,
     /// Whether faces hide what is behind them.
     pub opaque: bool,
+    /// What is cut away, and so neither meant nor hides anything; in world units.
+    pub cut: Option<Plane>,
 }
 
 /// What lies under the pointer.
@@ -114,8 +116,9 @@ impl Scene {
         let part = &self.mesh;
         // In scene units, where the tree lives.
         let ray = Ray { origin: (pointer.ray.origin - self.origin) / self.unit, ..pointer.ray };
-        let hit = first_hit(index, part, ray);
-        let mut search = Search { part, ray, spread: pointer.spread, edge: None, vertex: None };
+        let cut = pointer.cut.map(|cut| cut.in_scene(self));
+        let hit = first_hit(index, part, ray, kept(cut, ray));
+        let mut search = Search { part, ray, cut, spread: pointer.spread, edge: None, vertex: None };
         if let Some((_, triangle)) = hit {
             search.look_at_face(triangle);
         }
@@ -157,16 +160,22 @@ impl Scene {
     /// Whether faces of the mesh lie before a point that is seen along a ray, by more than `slack` world units: what is
     /// nearer is the surface that it lies on. No while [`Scene::is_indexed`] is not true yet.
     #[must_use]
-    pub fn hides(&self, sight: Ray, point: DVec3, slack: f64) -> bool {
+    pub fn hides(&self, sight: Ray, cut: Option<Plane>, point: DVec3, slack: f64) -> bool {
         let Some(indices) = self.index.get() else { return false };
         let ray = Ray { origin: (sight.origin - self.origin) / self.unit, ..sight };
         let distance = ((point - self.origin) / self.unit - ray.origin).dot(ray.direction);
-        first_hit(&indices[0], &self.mesh, ray).is_some_and(|(t, _)| t < distance - slack / self.unit)
+        first_hit(&indices[0], &self.mesh, ray, kept(cut.map(|cut| cut.in_scene(self)), ray))
+            .is_some_and(|(t, _)| t < distance - slack / self.unit)
     }
 }
 
-/// The triangle that a ray meets first, and how far along.
-fn first_hit(index: &Index, part: &Part, ray: Ray) -> Option<(f64, usize)> {
+/// How far along a ray what is not cut away begins and ends.
+fn kept(cut: Option<Plane>, ray: Ray) -> [f64; 2] {
+    cut.map_or([0.0, f64::INFINITY], |cut| cut.kept(ray))
+}
+
+/// The triangle that a ray meets first between `begin` and `end`, and how far along.
+fn first_hit(index: &Index, part: &Part, ray: Ray, [begin, end]: [f64; 2]) -> Option<(f64, usize)> {
     let mut first: Option<(f64, usize)> = None;
     let inverse = ray.direction.recip();
     index.tree.along(
@@ -174,6 +183,7 @@ fn first_hit(index: &Index, part: &Part, ray: Ray) -> Option<(f64, usize)> {
         |thing| {
             if let Some(&triangle) = part.triangles.get(thing)
                 && let Some(t) = meet(ray, triangle.map(|i| place(part, i).as_dvec3()))
+                && (begin..=end).contains(&t)
                 && first.is_none_or(|(best, old)| (t, thing) < (best, old))
             {
                 first = Some((t, thing));
@@ -202,6 +212,7 @@ fn meet(ray: Ray, [a, b, c]: [DVec3; 3]) -> Option<f64> {
 struct Search<'a> {
     part: &'a Part,
     ray: Ray,
+    cut: Option<Plane>,
     spread: f64,
     edge: Option<([u32; 2], Near<DVec3>)>,
     vertex: Option<(u32, Near<DVec3>)>,
@@ -252,6 +263,9 @@ impl Search<'_> {
     }
 
     fn beside(&self, p: DVec3) -> Near<DVec3> {
+        if self.cut.is_some_and(|cut| cut.beyond(p) > 0.0) {
+            return Near { what: p, distance: f64::INFINITY, point: p }; // it is not there
+        }
         let depth = self.depth(p);
         let aside = p.distance(self.ray.origin + depth * self.ray.direction);
         // What is behind the eye is infinitely far.

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::super::clicks::NEAR;
 use crate::camera::{Camera, picture_point};
 use crate::navigation::{Hand, Navigation, Turning};
-use crate::scene::{Pointer, Scene, Style};
+use crate::scene::{Plane, Pointer, Scene, Style};
 use crate::trace;
 
 /// Points that two fingers move to zoom by a factor of e.
@@ -40,7 +40,7 @@ impl Hands {
         let pointer = response.hover_pos()?;
         if response.double_clicked() {
             let _span = trace::span("window: picking");
-            let pivot = scene.pick(&self::pointer(rect, pointer, &camera))?.point;
+            let pivot = scene.pick(&self::pointer(rect, pointer, &camera, scene.cut(style, &camera)))?.point;
             // The eye stays where it is in the direction it looks; only what it turns around changes.
             return Some(Camera { pivot, ..camera });
         }
@@ -115,9 +115,9 @@ fn turn(camera: Camera, navigation: &Navigation, from: DVec2, to: DVec2) -> Came
 }
 
 /// What is meant by a place in the viewport.
-pub fn pointer(rect: Rect, at: Pos2, camera: &Camera) -> Pointer {
+pub fn pointer(rect: Rect, at: Pos2, camera: &Camera, cut: Option<Plane>) -> Pointer {
     let spread = camera.spread(f64::from(2.0 * NEAR / rect.height()));
-    Pointer { ray: camera.ray(place(rect, at)), spread, opaque: true }
+    Pointer { ray: camera.ray(place(rect, at)), spread, opaque: true, cut }
 }
 
 fn place(rect: Rect, pos: Pos2) -> DVec2 {

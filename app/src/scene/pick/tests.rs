@@ -18,7 +18,7 @@ fn indexed(mesh: &Mesh) -> (Scene, Faces) {
 /// Looks at `to` from `from`; up to a twentieth of the distance is near.
 fn pointer(from: [f64; 3], to: [f64; 3]) -> Pointer {
     let (origin, to) = (DVec3::from(from), DVec3::from(to));
-    Pointer { ray: Ray { origin, direction: (to - origin).normalize() }, spread: 0.05, opaque: true }
+    Pointer { ray: Ray { origin, direction: (to - origin).normalize() }, spread: 0.05, opaque: true, cut: None }
 }
 
 /// `face v1 v2 v3 v4 | edge v1 v2 | vertex v1`; what is not near stands in brackets.
@@ -198,4 +198,22 @@ fn scenes_and_indices_are_the_same_for_any_number_of_threads() {
         pool.install(|| format!("{:?}", indexed(&mesh).0))
     });
     assert!(made[0] == made[1] && made[0] == made[2]);
+}
+
+#[test]
+fn what_is_cut_away_is_not_meant_and_hides_nothing() {
+    let (scene, _) = indexed(&mesh(OCTAHEDRON));
+    let whole = pointer([0.2, 0.2, 9.0], [0.2, 0.2, 0.0]);
+    let front = scene.pick(&whole).unwrap();
+    assert!(front.point.z > 0.5);
+    let open = Pointer { cut: Some(Plane { normal: DVec3::Z, place: 0.0 }), ..whole };
+    let back = scene.pick(&open).unwrap();
+    assert!(back.point.z < -0.5, "{}", back.point);
+    assert_ne!(front.face, back.face);
+    let behind = Pointer { cut: Some(Plane { normal: DVec3::NEG_Z, place: 0.0 }), ..whole };
+    assert_eq!(scene.pick(&behind).unwrap().face, front.face);
+    let all = Pointer { cut: Some(Plane { normal: DVec3::Z, place: -2.0 }), ..whole };
+    assert!(scene.pick(&all).is_none());
+    assert!(scene.hides(whole.ray, None, DVec3::new(0.2, 0.2, 0.0), 1e-3));
+    assert!(!scene.hides(whole.ray, open.cut, DVec3::new(0.2, 0.2, 0.0), 1e-3));
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use app::annotate::{ArrowSet, Arrows, Field, Quantity, Subject, Tint};
+use app::camera::Up;
 use app::inspect::lineage::Lineage;
 use app::render::Dressing;
 use app::scene::{Axis, Cut, Surface};
@@ -90,6 +91,14 @@ fn the_place_of_a_cut_goes_from_one_end_of_the_mesh_to_the_other() {
         let [left, right, ..] = covered(&seen_from_front(&ball(24), &plain()));
         left + right
     });
+}
+
+#[test]
+fn the_grid_lies_across_the_axis_that_points_up() {
+    let ball = scene(&ball(24));
+    let covered_by = |up| covered(&draw(&ball, &Style { grid: true, up, ..plain() }));
+    let ([.., y_above, _], [.., z_above, _]) = (covered_by(Up::Y), covered_by(Up::Z));
+    assert!(z_above > y_above + 0.1, "upright in the standard view: {z_above} {y_above}");
 }
 
 fn tinted(mesh: &Mesh, quantity: &Quantity, style: &Style) -> RgbaImage {
