@@ -48,7 +48,11 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
     }
     if let Some(v) = inspection.pointed.filter(|&v| mesh.set.contains(v)) {
         overlay.glow(mesh.position(v), inks.pointed);
-        let alone = selected.is_empty() || !selected.contains(&Item::Vertex(v));
+        let named = |item: &Item| match *item {
+            Item::Vertex(u) => u == v || selected.len() == 1 && mesh.ring(u).contains(Some(v)),
+            _ => false,
+        };
+        let alone = !selected.iter().any(named);
         if alone && ui.ctx().input(|i| !i.pointer.any_down()) {
             overlay.label(mesh.position(v), vec2(0.0, -22.0), &v.to_string(), ui.visuals().text_color());
         }

@@ -1,7 +1,7 @@
 //! The ring of the selected vertex: its neighbours on a circle, in their order, and as text; and as it was before.
 
 use eframe::egui::{
-    Align2, Color32, FontId, Grid, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextStyle, Ui,
+    Align2, Color32, FontId, Grid, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextStyle, Ui, Vec2,
     WidgetInfo, vec2,
 };
 use vv::mesh::Vertex;
@@ -95,12 +95,15 @@ impl Panel<'_> {
         let height = if prefix.is_empty() { 190.0_f32 } else { 150.0 }.min(width);
         let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
         let inks = Inks::new(ui);
-        let (weak, text) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
-        let radius = height / 2.0 - 16.0;
+        let (weak, text_color) = (ui.visuals().weak_text_color(), ui.visuals().text_color());
         let count = ring.entries.len();
-        let place = |i: usize| around(rect.center(), radius, i, count);
         let font = FontId::proportional(if named { 12.0 } else { 10.0 });
-        let room = if named { 15.0 } else { 5.0 };
+        // Half of what an entry takes up.
+        let measured = |text: String| ui.painter().layout_no_wrap(text, font.clone(), text_color).size().x;
+        let widest = ring.vertices().map(|v| measured(v.to_string())).fold(12.0, f32::max);
+        let room = if named { vec2(widest / 2.0 + 5.0, 10.0) } else { vec2(5.0, 5.0) };
+        let radius = (height / 2.0 - 14.0).min(width / 2.0 - room.x).max(20.0);
+        let place = |i: usize| around(rect.center(), radius, i, count);
         for (i, &entry) in ring.entries.iter().enumerate() {
             let at = place(i);
             let fault = entry.fault(ring.of).is_some();
@@ -110,7 +113,7 @@ impl Panel<'_> {
                 }
                 Entry::Vertex { .. } => {
                     let ink = if fault { inks.wrong } else { weak.gamma_multiply(0.6) };
-                    spoke(ui, rect.center(), at, room, Stroke::new(1.0, ink), fault);
+                    spoke(ui, rect.center(), at, room.y + 4.0, Stroke::new(1.0, ink), fault);
                 }
             }
             // To the next one; before and after a gap, there is no face.
@@ -135,10 +138,7 @@ impl Panel<'_> {
         for (i, &entry) in ring.entries.iter().enumerate() {
             let Some(q) = entry.vertex() else { continue };
             let here = self.here(q, generation);
-            let area = Rect::from_center_size(
-                place(i),
-                vec2(if named { 38.0 } else { 12.0 }, if named { 20.0 } else { 12.0 }),
-            );
+            let area = Rect::from_center_size(place(i), 2.0 * room);
             let id = ui.scope_id().with(("ring", prefix, i));
             let response = ui.interact(area, id, if here.is_some() { Sense::click() } else { Sense::hover() });
             response
@@ -148,7 +148,7 @@ impl Panel<'_> {
             let fault = entry.fault(ring.of);
             let ink = match (&fault, here) {
                 (Some(_), _) => inks.wrong,
-                (None, Some(_)) => text,
+                (None, Some(_)) => text_color,
                 (None, None) => weak,
             };
             if lit {
@@ -182,40 +182,37 @@ impl Panel<'_> {
 
     /// `v7: {v3, v9, _, v12}`
     fn text(&self, ui: &mut Ui, ring: &Ring, generation: u64, prefix: &str, commands: &mut Vec<Command>) {
+        let left_out = ring.len - ring.entries.len();
         ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = vec2(0.0, 2.0);
-            ui.monospace(format!("{}: {{", ring.of));
+            // Lines break between entries, never before a comma.
+            ui.spacing_mut().item_spacing = vec2(7.0, 2.0);
+            let first = if ring.len == 0 { format!("{}: {{}}", ring.of) } else { format!("{}: {{", ring.of) };
+            ui.monospace(first);
             for (i, &entry) in ring.entries.iter().enumerate() {
-                match entry.vertex() {
-                    None => {
-                        ui.monospace("_").on_hover_text("a gap: the surface is missing here");
-                    }
-                    Some(q) => {
-                        let fault = entry.fault(ring.of);
-                        let here = self.here(q, generation);
+                let last = i + 1 == ring.entries.len();
+                let after = if !last || left_out > 0 { "," } else { "}" };
+                let Some(q) = entry.vertex() else {
+                    ui.monospace(format!("_{after}")).on_hover_text("a gap: the surface is missing here");
+                    continue;
+                };
+                let fault = entry.fault(ring.of);
+                let text = format!("{q}{}{after}", if fault.is_some() { "!" } else { "" });
+                match self.here(q, generation) {
+                    Some(here) => {
                         let name = format!("{prefix}{q}");
-                        match here {
-                            Some(here) => {
-                                let link = vertex_link(ui, self.session, commands, here, &q.to_string(), Some(&name));
-                                if let Some(fault) = fault {
-                                    link.on_hover_text(&fault);
-                                    ui.label(RichText::new("!").monospace().color(ui.visuals().error_fg_color));
-                                }
-                            }
-                            None => {
-                                ui.label(RichText::new(q.to_string()).monospace().weak());
-                            }
+                        let link = vertex_link(ui, self.session, commands, here, &text, Some(&name));
+                        if let Some(fault) = fault {
+                            link.on_hover_text(fault);
                         }
                     }
-                }
-                if i + 1 < ring.entries.len() {
-                    ui.monospace(", ");
+                    None => {
+                        ui.label(RichText::new(text).monospace().weak());
+                    }
                 }
             }
-            if ring.entries.len() < ring.len {
-                ui.weak(format!(", … {} more", ring.len - ring.entries.len()));
+            if left_out > 0 {
+                ui.weak(format!("… {left_out} more}}"));
             }
-            ui.monospace("}");
         });
     }
 
@@ -269,18 +266,18 @@ fn spoke(ui: &Ui, from: Pos2, to: Pos2, room: f32, stroke: Stroke, one_way: bool
     }
 }
 
-fn head(ui: &Ui, tip: Pos2, direction: eframe::egui::Vec2, color: Color32) {
+fn head(ui: &Ui, tip: Pos2, direction: Vec2, color: Color32) {
     let (back, side) = (tip - direction * 7.0, direction.rot90() * 3.5);
     ui.painter().add(Shape::convex_polygon(vec![tip, back + side, back - side], color, Stroke::NONE));
 }
 
 /// The part of the circle between an entry and the next, with an arrow head; dotted beside a gap.
 #[expect(clippy::too_many_arguments, reason = "a drawing, used once")]
-fn arc(ui: &Ui, center: Pos2, radius: f32, i: usize, count: usize, room: f32, ink: Color32, dotted: bool) {
+fn arc(ui: &Ui, center: Pos2, radius: f32, i: usize, count: usize, room: Vec2, ink: Color32, dotted: bool) {
     use std::f32::consts::TAU;
     let step = TAU / count as f32;
-    // Names are wider than high.
-    let margin = |angle: f32| (room + 3.0 * angle.sin().abs()) / radius;
+    // Names are wider than high: at the top the circle leaves them sideways.
+    let margin = |angle: f32| (room.y + 2.0 + (room.x - room.y).max(0.0) * angle.sin().abs()) / radius;
     let (begin, end) = (-TAU / 4.0 - step * i as f32, -TAU / 4.0 - step * (i + 1) as f32);
     let (begin, end) = (begin - margin(begin), end + margin(end));
     if begin - end < 0.05 {
@@ -311,7 +308,8 @@ pub fn vertex_link(
     let lit = session.inspection.pointed == Some(v);
     let mut shown = RichText::new(text).monospace();
     if lit {
-        shown = shown.background_color(Inks::new(ui).pointed.gamma_multiply(0.55));
+        let light = Inks::new(ui).pointed.gamma_multiply(0.55);
+        shown = shown.background_color(light).color(ui.visuals().strong_text_color());
     }
     let response = ui.link(shown);
     let response = match name {

@@ -273,6 +273,16 @@ fn shapes(mesh: &Mesh, faces: &Faces, range: Range<usize>) -> (Vec<usize>, Vec<(
     let mut points: Vec<DVec3> = Vec::new();
     for i in range {
         let corners = faces.get(i);
+        // As most are, and they are always plane.
+        if let &[a, b, c] = corners {
+            let [a, b, c] = [a, b, c].map(|v| mesh.position(v));
+            let (ab, ac) = (b - a, c - a);
+            let longest = ab.length_squared().max(ac.length_squared()).max(b.distance_squared(c));
+            if longest.is_finite() && ab.cross(ac).length() <= 2.0 * THIN * longest {
+                thin.push(i);
+            }
+            continue;
+        }
         points.clear();
         points.extend(corners.iter().map(|&v| mesh.position(v)));
         let m = FaceMeasure::of(&points);
@@ -299,4 +309,96 @@ fn in_pieces<T: Send>(faces: &Faces, work: impl Fn(Range<usize>) -> T + Sync, st
             Ok(work(i * PIECE..faces.len().min((i + 1) * PIECE)))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn v(number: usize) -> Vertex {
+        Vertex::from_index(number - 1).unwrap()
+    }
+
+    /// Rings as numbers, a gap as 0.
+    fn mesh(rings: &[&[usize]], positions: &[[f64; 3]]) -> Mesh {
+        let mut mesh = Mesh::new();
+        for &position in positions {
+            let v = mesh.create().unwrap();
+            mesh.set.add(v);
+            mesh.set_position(v, position.into());
+        }
+        for (i, ring) in rings.iter().enumerate() {
+            let items: Vec<_> = ring.iter().map(|&n| (n > 0).then(|| v(n))).collect();
+            mesh.make(v(i + 1), &items).unwrap();
+        }
+        mesh
+    }
+
+    #[track_caller]
+    fn check(mesh: &Mesh, expected: &[&str]) {
+        let stop = Stop::new();
+        let faces = vv::mesh::faces::faces(mesh, &stop).unwrap();
+        let found = Findings::of(mesh, &faces, false, &stop).unwrap();
+        let show = |g: &Group| {
+            let title = format!("{} {}", g.count, g.kind.title(g.count));
+            std::iter::once(title).chain(g.rows.iter().map(|row| row.text.clone())).collect::<Vec<_>>()
+        };
+        assert_eq!(found.groups.iter().flat_map(show).collect::<Vec<_>>(), expected);
+    }
+
+    const SQUARE: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    const AROUND: [&[usize]; 4] = [&[2, 4, 0], &[3, 1, 0], &[4, 2, 0], &[1, 3, 0]];
+
+    #[test]
+    fn a_plane_square_has_no_findings() {
+        check(&mesh(&AROUND, &SQUARE), &[]);
+    }
+
+    #[test]
+    fn a_bent_square_is_not_plane_and_one_on_a_line_is_degenerate() {
+        let mut bent = SQUARE;
+        bent[2][2] = 0.5;
+        check(&mesh(&AROUND, &bent), &["1 face that is not plane", "7.36 %  face v1 v2 v3 v4"]);
+        let flat = SQUARE.map(|[x, _, _]| [x, 0.0, 0.0]);
+        check(&mesh(&AROUND, &flat), &["1 degenerate face", "face v1 v2 v3 v4"]);
+    }
+
+    #[test]
+    fn a_thin_triangle_is_degenerate() {
+        let rings: [&[usize]; 3] = [&[2, 3, 0], &[3, 1, 0], &[1, 2, 0]];
+        let line = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 1e-12, 0.0]];
+        check(&mesh(&rings, &line), &["1 degenerate face", "face v1 v2 v3"]);
+    }
+
+    #[test]
+    fn neighbours_that_do_not_answer_break_orbits() {
+        let mut torn = mesh(&AROUND, &SQUARE);
+        torn.erase(Some(v(1)), v(2));
+        check(
+            &torn,
+            &[
+                "1 incomplete neighbour",
+                "v1 → v2: v2 does not name v1",
+                "1 broken orbit",
+                "orbit v1 → v2: v2 does not name v1",
+            ],
+        );
+    }
+
+    #[test]
+    fn neighbours_outside_the_set_and_vertices_alone_are_told_of() {
+        let mut alone = mesh(&[&[2], &[1], &[]], &SQUARE[..3]);
+        alone.set.remove(v(2));
+        check(
+            &alone,
+            &[
+                "1 broken orbit",
+                "orbit v1 → v2: v2 is not in the set",
+                "1 neighbour outside the set",
+                "v1 names v2, which is not in the set",
+                "1 isolated vertex",
+                "v3 has no neighbours",
+            ],
+        );
+    }
 }
