@@ -1,7 +1,7 @@
 //! Keys and dropped files to commands.
 
 use eframe::egui::text_selection::LabelSelectionState;
-use eframe::egui::{Context, Event, Key, Modifiers};
+use eframe::egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers};
 
 use crate::command::{self, Command, Inspect, ViewAction};
 use crate::session::Session;
@@ -29,14 +29,7 @@ pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &
             if typing && !editing && undoes {
                 continue;
             }
-            // Shift makes another key of a letter: `S` is not `s`.
-            // On many keyboards above another sign.
-            let sign = matches!(shortcut.logical_key, Key::Questionmark | Key::Plus);
-            let exact = ctx.input(|i| {
-                (!i.modifiers.shift || shortcut.modifiers.shift || sign)
-                    && (!i.modifiers.alt || shortcut.modifiers.alt || sign)
-            });
-            if exact && ctx.input_mut(|i| i.consume_shortcut(shortcut)) {
+            if ctx.input_mut(|i| consume(i, shortcut)) {
                 commands.push(match command {
                     Command::Undo if editing => Command::UndoText,
                     Command::Redo if editing => Command::RedoText,
@@ -75,11 +68,29 @@ pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &
             Key::Num9,
         ];
         for (generation, key) in digits.into_iter().enumerate() {
-            if ctx.input(|i| i.modifiers.is_none() && i.key_pressed(key)) {
+            if ctx.input_mut(|i| consume(i, &KeyboardShortcut::new(Modifiers::NONE, key))) {
                 commands.push(Command::GoTo(generation as u64));
             }
         }
     }
+}
+
+/// Takes the presses of a key with just these keys held. What counts is what was held when it was pressed: a picture may
+/// take longer than somebody holds Shift.
+fn consume(input: &mut InputState, shortcut: &KeyboardShortcut) -> bool {
+    // On many keyboards above another sign.
+    let sign = matches!(shortcut.logical_key, Key::Questionmark | Key::Plus);
+    // Shift makes another key of a letter: `S` is not `s`.
+    let exact = |held: &Modifiers| {
+        let wanted = shortcut.modifiers;
+        held.matches_logically(wanted) && (!held.shift || wanted.shift || sign) && (!held.alt || wanted.alt || sign)
+    };
+    let before = input.events.len();
+    input.events.retain(|event| {
+        !matches!(event, Event::Key { key, pressed: true, modifiers, .. }
+            if *key == shortcut.logical_key && exact(modifiers))
+    });
+    input.events.len() < before
 }
 
 /// Takes a viewpoint that comes from the clipboard: one that was asked for, or one that nobody else can be meant by.

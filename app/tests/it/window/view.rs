@@ -305,3 +305,16 @@ fn render_options_open_over_the_picture_and_go_by_escape() {
     window.run_steps(2);
     assert!(window.query_by_label("Render options").is_none());
 }
+
+/// A picture of a large mesh takes longer than a key is held.
+#[test]
+fn what_counts_is_what_was_held_when_a_key_was_pressed() {
+    let mut window = octahedron();
+    let modifiers = Modifiers::COMMAND | Modifiers::SHIFT;
+    for pressed in [true, false] {
+        let event = egui::Event::Key { key: Key::C, physical_key: None, pressed, repeat: false, modifiers };
+        window.input_mut().events.push(event); // and at the end of the frame nothing is held any more
+    }
+    settle(&mut window);
+    assert_eq!(window.state().session().notice().unwrap().1, "viewpoint copied");
+}
