@@ -1,6 +1,6 @@
 //! How things are drawn, in a window over the picture: for those who have put the inspector away.
 
-use eframe::egui::{Align2, Context, Key, Modifiers, Window, vec2};
+use eframe::egui::{Align2, Context, Key, Modifiers, ScrollArea, Window, vec2};
 
 use super::display;
 use super::widgets::{button, switch};
@@ -19,13 +19,13 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
         .pivot(Align2::RIGHT_TOP)
         .default_pos(ctx.content_rect().right_top() + vec2(-24.0, 100.0))
         .default_width(250.0)
-        .max_height(room.max(160.0))
         .resizable(false)
-        .vscroll(true)
         .show(ctx, |ui| {
-            display::show(ui, session, commands);
-            switch(ui, session, commands, Command::View(ViewAction::Orthographic));
-            button(ui, session, commands, Command::Fit);
+            ScrollArea::vertical().max_height(room.max(160.0)).show(ui, |ui| {
+                display::show(ui, session, commands);
+                switch(ui, session, commands, Command::View(ViewAction::Orthographic));
+                button(ui, session, commands, Command::Fit);
+            });
         });
     let typing = ctx.egui_wants_keyboard_input();
     let escaped = !typing && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
