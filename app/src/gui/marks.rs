@@ -44,7 +44,7 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
         chosen(overlay, mesh, item);
     }
     if let Some(walking) = &inspection.walk {
-        walk(overlay, mesh, walking);
+        walk(overlay, mesh, walking, &selected);
     }
     if let Some(v) = inspection.pointed.filter(|&v| mesh.set.contains(v)) {
         overlay.glow(mesh.position(v), inks.pointed);
@@ -172,7 +172,7 @@ fn measures(overlay: &Overlay<'_>, mesh: &Mesh, selected: &[Item]) {
 }
 
 /// The arrows of a walk so far, drawn beside the edges on the side of the face.
-fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking) {
+fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking, selected: &[Item]) {
     let (walk, ink) = (&walking.walk, overlay.inks.walk);
     let path = &walk.path[..walk.path.len().min(CORNERS)];
     let middle = path.iter().map(|&v| mesh.position(v)).sum::<DVec3>() / path.len().max(1) as f64;
@@ -193,7 +193,7 @@ fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking) {
     }
     // The three vertices of the rule have their names, outside of the face.
     let center = overlay.see(middle).map(|spot| spot.at);
-    for &v in &path[last.saturating_sub(2)..=last] {
+    for &v in path[last.saturating_sub(2)..=last].iter().filter(|&&v| !selected.contains(&Item::Vertex(v))) {
         let out = overlay.see(mesh.position(v)).zip(center).map(|(spot, center)| spot.at - center);
         let out = out.filter(|out| out.length() > 1.0).map_or(vec2(0.0, -1.0), |out| out.normalized());
         overlay.label(mesh.position(v), out * vec2(20.0, 17.0), &v.to_string(), ink);
