@@ -1,5 +1,6 @@
 //! Files that commands write: meshes and pictures.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -94,12 +95,21 @@ impl OutputArguments {
         self.view.as_deref().map(|given| view::read(given, reporter)).transpose()
     }
 
-    /// What to write, checked: formats are known and each place can be written to, so that nobody waits for a result
-    /// that cannot be kept.
+    /// What to write, checked: formats are known and each place can be written to.
     ///
     /// # Errors
     /// [`Exit::Usage`] or [`Exit::File`], reported.
     pub fn targets(&self, reporter: &Reporter) -> Result<Vec<Target>, Exit> {
+        let targets = self.formats(reporter)?;
+        check_places(&targets, reporter)?;
+        Ok(targets)
+    }
+
+    /// What to write, without a look at the places.
+    ///
+    /// # Errors
+    /// [`Exit::Usage`], reported.
+    pub fn formats(&self, reporter: &Reporter) -> Result<Vec<Target>, Exit> {
         let mut targets: Vec<Target> = Vec::new();
         for path in &self.output {
             if targets.iter().any(|target| target.path == *path) {
@@ -112,9 +122,6 @@ impl OutputArguments {
         }
         if targets.iter().any(|target| target.format.is_none()) {
             picture::keep_driver_quiet();
-        }
-        for target in &targets {
-            files::prepare(&target.path, &[]).map_err(|error| input::file_failed(&error, reporter))?;
         }
         Ok(targets)
     }
@@ -138,6 +145,33 @@ impl OutputArguments {
                 .into()),
         }
     }
+}
+
+impl Target {
+    /// The same in another place.
+    pub fn at(&self, path: PathBuf) -> Self {
+        Self { path, ..*self }
+    }
+
+    /// Where.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Whether each place can be written to, so that nobody waits for a result that cannot be kept. Of new files in one
+/// folder only the first is looked at.
+///
+/// # Errors
+/// [`Exit::File`], reported.
+pub fn check_places(targets: &[Target], reporter: &Reporter) -> Result<(), Exit> {
+    let mut folders = BTreeSet::new();
+    for Target { path, .. } in targets {
+        if folders.insert(path.parent()) || path.exists() {
+            files::prepare(path, &[]).map_err(|error| input::file_failed(&error, reporter))?;
+        }
+    }
+    Ok(())
 }
 
 /// Makes all outputs and writes them beside their places. All pictures of a run are the same one, which is also made

@@ -89,6 +89,7 @@ pub struct Printer {
     watched: bool,
     progress: ProgressBar,
     error: Option<io::Error>,
+    closed: bool,
 }
 
 impl Printer {
@@ -99,7 +100,7 @@ impl Printer {
         } else {
             (Box::new(io::stdout()), io::stdout().is_terminal())
         };
-        Self { to: BufWriter::new(to), watched, progress: reporter.progress.clone(), error: None }
+        Self { to: BufWriter::new(to), watched, progress: reporter.progress.clone(), error: None, closed: false }
     }
 
     /// Sends on what was printed so far.
@@ -112,8 +113,21 @@ impl Printer {
         }
         match self.error.take() {
             None => Ok(()),
-            Some(problem) => Err(output_failed(&problem, reporter)),
+            Some(problem) => {
+                self.closed = true;
+                Err(output_failed(&problem, reporter))
+            }
         }
+    }
+
+    /// Nobody listens any more.
+    pub fn close(&mut self) {
+        self.closed = true;
+    }
+
+    /// Whether something could not be written, so that nothing else needs to be made.
+    pub fn is_closed(&self) -> bool {
+        self.closed
     }
 }
 

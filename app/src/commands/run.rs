@@ -1,19 +1,22 @@
 //! `vv run`
 
+mod cases;
+mod names;
 pub(super) mod parameters;
+mod plan;
+mod steps;
 mod summary;
 
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use app::evaluation::{self, Generation, machine_limits, within};
-use app::files;
-use app::inspect::lineage::Survivors;
+use app::evaluation::machine_limits;
+use app::files::{self, Prepared};
 use clap::{Args, ValueEnum};
-use vv::diagnostic::Diagnostic;
-use vv::diagnostic::Severity;
-use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
+use image::RgbaImage;
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::engine::{Engine, Limits, Machine, Settings};
 use vv::ir::{FunctionId, Program};
 use vv::mesh::Mesh;
 use vv::mesh::faces::{Faces, faces};
@@ -27,7 +30,10 @@ use super::picture::{self, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
-use summary::{Summary, Timings};
+use cases::Case;
+use plan::{Given, Plan};
+use steps::State;
+use summary::{Line, Summary, Timings};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -37,6 +43,8 @@ Examples:
   vv run loop.vv -i bunny.obj --summary json | jq .euler_characteristic
   vv run loop.vv -i bunny.obj -o new.png --reference old.png      a picture test
   vv run loop.vv -i bunny.obj -o a.png --color-by gauss --style smooth,no-edges
+  vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n}.obj'       every generation of both
+  vv run terrain.vv -D roughness=0:1:5 -o 'terrain_{roughness}.obj'
 
 ";
 
@@ -49,16 +57,19 @@ pub struct Arguments {
     /// What is no option and no program: the mesh, where `-i` was forgotten.
     #[arg(hide = true)]
     others: Vec<PathBuf>,
-    /// The mesh to begin with (.obj, .off, .ply, .stl, .glb, .gltf); `-` is stdin, in any of these formats. A program with `start` needs none.
+    /// The mesh to begin with (.obj, .off, .ply, .stl, .glb, .gltf); `-` is stdin, in any of these formats. A program with `start` needs none. May be repeated: each is run on its own, and `{name}` in the names of outputs is its name.
     #[arg(short, long, value_name = "MESH")]
-    input: Option<PathBuf>,
+    input: Vec<PathBuf>,
     /// How often to apply the rule. Default: 1, or 0 if the program has only `start`.
     #[arg(short = 'n', long, value_name = "STEPS", allow_negative_numbers = true, value_parser = steps)]
     steps: Option<u64>,
     /// The rule to apply. Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
     rule: Option<String>,
-    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated.
+    /// The generations that `{n}` in the names of outputs stands for, such as 0,2,4 or 0-3. Default: all.
+    #[arg(long, value_name = "LIST", value_parser = plan::generations)]
+    generations: Option<plan::Generations>,
+    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value.
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
     definitions: Vec<(String, String)>,
     #[command(flatten)]
@@ -117,13 +128,11 @@ pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
 fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> Result<(), Exit> {
     check_streams(arguments, reporter)?;
     let viewpoint = arguments.output.viewpoint(reporter)?;
-    let targets = arguments.output.targets(reporter)?;
+    let outputs = arguments.output.formats(reporter)?;
     reporter.begin();
-    let mut timings = Timings::default();
 
     let compiling = Instant::now();
     let (program, found) = input::program(&arguments.program, reporter)?;
-    let mut warnings = warnings_of(&found);
     let engine = match arguments.engine {
         EngineChoice::Interpret => Engine::Interpret,
         EngineChoice::Native => Engine::Native,
@@ -132,62 +141,182 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     if let Some(refusal) = machine.refusal() {
         reporter.report(&[Diagnostic::new(Severity::Note, None, refusal)], &program.sources);
     }
-    timings.compile_s = compiling.elapsed().as_secs_f64();
+    let timings = Timings { compile_s: compiling.elapsed().as_secs_f64(), ..Timings::default() };
 
-    let (rule, steps) = plan(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
-    let params = parameters::values(&program, &arguments.definitions)
-        .or_else(|diagnostic| fail(reporter, Exit::Usage, *diagnostic))?;
+    let usage = |diagnostic: Box<Diagnostic>| {
+        reporter.report(&[*diagnostic], &Sources::default());
+        Exit::Usage
+    };
+    let (rule, steps) =
+        what_to_apply(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
+    let cases = cases::cases(&program, arguments.input.len(), &arguments.definitions).map_err(usage)?;
+    let given =
+        Given { program: &arguments.program, inputs: &arguments.input, generations: arguments.generations.as_ref() };
+    let plan = Plan::new(given, outputs, cases, steps).map_err(usage)?;
+    if arguments.reference.is_some() && plan.has_many() {
+        return fail(reporter, Exit::Usage, error("`--reference` compares one result, and here are several"));
+    }
+    output::check_places(&plan.all_targets(), reporter)?;
     let reference = arguments.reference.as_deref().map(|path| Reference::read(path, &arguments.importing, reporter));
     let reference = reference.transpose()?;
 
-    let loading = Instant::now();
-    let mesh = match &arguments.input {
-        Some(path) => {
-            reporter.progress(format!("reading {}", path.display()));
-            let (mesh, found) = input::mesh(path, &arguments.importing, reporter)?;
-            warnings.extend(warnings_of(&found));
-            mesh
-        }
-        None => Mesh::new(),
-    };
-    timings.load_s = loading.elapsed().as_secs_f64();
-
     let limits = Limits { max_vertices: arguments.importing.max_vertices, ..machine_limits() };
-    let settings = Settings { params, seed: arguments.seed, limits, stop: Stop::new() };
-    let to_stderr = arguments.output.to_stdout() || arguments.summary.is_some();
-    let mut printer = Printer::new(to_stderr, reporter);
-    let run = Run { arguments, machine: &machine, settings, reporter };
-    let (mesh, past, found) = run.generations(mesh, rule.map(|rule| (rule, steps)), &mut printer, &mut timings)?;
-    warnings.extend(found);
-    if mesh.set.is_empty() && !targets.is_empty() {
-        let diagnostic = error("the mesh has no vertices left, so there is nothing to write");
-        return fail(reporter, Exit::Program, diagnostic);
-    }
-
-    let needs_faces = !targets.is_empty() || arguments.summary.is_some() || reference.is_some();
-    let finding = Instant::now();
-    let faces =
-        if needs_faces { run.in_time("finding the faces", |stop| faces(&mesh, stop))? } else { Faces::default() };
-    timings.faces_s = finding.elapsed().as_secs_f64();
-
     let size = arguments.output.size().or(reference.as_ref().and_then(Reference::size)).unwrap_or(DEFAULT_SIZE);
-    let with_picture = reference.as_ref().is_some_and(Reference::is_picture);
-    let shot = Shot { size, viewpoint, look: &arguments.look.look() };
-    let result = look::Result { mesh: &mesh, faces: &faces, past: &past };
-    let outputs = output::prepare(&targets, shot, with_picture, result, reporter)?;
-    timings.export_s = outputs.export_s;
-    timings.render_s = outputs.render_s;
-    printer.flush(reporter)?;
-    if arguments.summary.is_some() {
-        let statistics = run.in_time("counting", |stop| statistics(&mesh, &faces, stop))?;
-        timings.total_s = began.elapsed().as_secs_f64();
-        let summary = Summary::new(statistics, warnings, timings);
-        write_stdout(info::json(&summary).as_bytes(), reporter)?;
+    let run = Run {
+        arguments,
+        machine: &machine,
+        rule: rule.map(|rule| (rule, steps)),
+        settings: Settings { params: Vec::new(), seed: arguments.seed, limits, stop: Stop::new() },
+        plan: &plan,
+        shot: Shot { size, viewpoint, look: &arguments.look.look() },
+        reference,
+        warnings: warnings_of(&found),
+        began,
+        reporter,
+    };
+    run.all(&timings)
+}
+
+/// All runs of a command.
+struct Run<'a> {
+    arguments: &'a Arguments,
+    machine: &'a Machine,
+    /// What to apply how often.
+    rule: Option<(FunctionId, u64)>,
+    /// But for the parameters.
+    settings: Settings,
+    plan: &'a Plan,
+    shot: Shot<'a>,
+    reference: Option<Reference>,
+    /// What was warned of in the program.
+    warnings: Vec<String>,
+    began: Instant,
+    reporter: &'a Reporter,
+}
+
+/// An input that was read, with what was warned of, and how long that took.
+struct Loaded {
+    mesh: Mesh,
+    warnings: Vec<String>,
+    load_s: f64,
+}
+
+/// What a run has made so far.
+#[derive(Default)]
+struct Made {
+    prepared: Vec<Prepared>,
+    /// One for each generation that is asked for.
+    summaries: String,
+    faces: Faces,
+    picture: Option<RgbaImage>,
+}
+
+impl Run<'_> {
+    /// Each on its own: a failure in one ends with its exit code when all others are done. Where nobody listens any more,
+    /// or nothing can be drawn, the others would fare no better.
+    fn all(&self, timings: &Timings) -> Result<(), Exit> {
+        let mut result = Ok(());
+        let mut loaded: Option<(usize, Result<Loaded, Exit>)> = None;
+        let to_stderr = self.arguments.output.to_stdout() || self.arguments.summary.is_some();
+        let mut printer = Printer::new(to_stderr, self.reporter);
+        for case in self.plan.cases() {
+            if loaded.as_ref().is_none_or(|(input, _)| *input != case.input) {
+                loaded = Some((case.input, self.load(case.input)));
+            }
+            let ended = match &loaded {
+                Some((_, Ok(loaded))) => self.one(case, loaded, timings.clone(), &mut printer),
+                Some((_, Err(exit))) => Err(*exit),
+                None => Ok(()),
+            };
+            if ended == Err(Exit::NoRenderer) || printer.is_closed() {
+                return ended;
+            }
+            result = result.and(ended);
+        }
+        result
     }
-    output::commit(outputs.prepared, reporter)?;
-    match reference {
-        Some(reference) => reference.compare((&mesh, &faces), outputs.picture.as_ref(), arguments.tolerance, reporter),
-        None => Ok(()),
+
+    fn load(&self, input: usize) -> Result<Loaded, Exit> {
+        let loading = Instant::now();
+        let (mesh, found) = match self.arguments.input.get(input) {
+            Some(path) => {
+                self.reporter.progress(format!("reading {}", path.display()));
+                input::mesh(path, &self.arguments.importing, self.reporter)?
+            }
+            None => (Mesh::new(), Vec::new()),
+        };
+        let warnings = [self.warnings.clone(), warnings_of(&found)].concat();
+        Ok(Loaded { mesh, warnings, load_s: loading.elapsed().as_secs_f64() })
+    }
+
+    /// Runs one and writes what is made of it, all or nothing.
+    fn one(&self, case: &Case, loaded: &Loaded, timings: Timings, printer: &mut Printer) -> Result<(), Exit> {
+        let mut made = Made::default();
+        let state = State {
+            mesh: loaded.mesh.clone(),
+            past: Past::default(),
+            warnings: loaded.warnings.clone(),
+            timings: Timings { load_s: loaded.load_s, ..timings },
+        };
+        let state = self.generations(case, state, printer, &mut |state| self.show(case, state, &mut made))?;
+        if !made.summaries.is_empty() {
+            write_stdout(made.summaries.as_bytes(), self.reporter).inspect_err(|_| printer.close())?;
+        }
+        output::commit(made.prepared, self.reporter)?;
+        match &self.reference {
+            Some(reference) => {
+                let result = (&state.mesh, &made.faces);
+                reference.compare(result, made.picture.as_ref(), self.arguments.tolerance, self.reporter)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Makes of a generation what is asked for.
+    fn show(&self, case: &Case, state: &mut State, made: &mut Made) -> Result<(), Exit> {
+        let State { mesh, past, warnings, timings } = state;
+        let targets = self.plan.targets(case, past.generation);
+        let summarised = self.arguments.summary.is_some() && self.plan.is_shown(past.generation);
+        let reference = self.reference.as_ref().filter(|_| self.plan.is_last(past.generation));
+        if targets.is_empty() && !summarised && reference.is_none() {
+            return Ok(());
+        }
+        if mesh.set.is_empty() && !targets.is_empty() {
+            let diagnostic = error("the mesh has no vertices left, so there is nothing to write");
+            return fail(self.reporter, Exit::Program, diagnostic);
+        }
+        let finding = Instant::now();
+        made.faces = self.in_time("finding the faces", |stop| faces(mesh, stop))?;
+        timings.faces_s = finding.elapsed().as_secs_f64();
+
+        let with_picture = reference.is_some_and(Reference::is_picture);
+        let result = look::Result { mesh, faces: &made.faces, past };
+        let outputs = output::prepare(&targets, self.shot, with_picture, result, self.reporter)?;
+        timings.export_s = outputs.export_s;
+        timings.render_s = outputs.render_s;
+        made.prepared.extend(outputs.prepared);
+        made.picture = outputs.picture;
+        if summarised {
+            let statistics = self.in_time("counting", |stop| statistics(mesh, &made.faces, stop))?;
+            timings.total_s = self.began.elapsed().as_secs_f64();
+            let summary = Summary::new(statistics, warnings.clone(), timings.clone());
+            made.summaries += &match self.plan.has_many() {
+                false => info::json(&summary),
+                true => self.line(case, past.generation, summary).text(),
+            };
+        }
+        Ok(())
+    }
+
+    fn line(&self, case: &Case, generation: u64, summary: Summary) -> Line {
+        let globals = |id| self.machine.program().params().find(|&(other, ..)| other == id);
+        let named = |&(id, value)| Some((globals(id)?.1.name.clone(), summary::value(value)));
+        Line {
+            input: self.arguments.input.get(case.input).map(|path| path.display().to_string()),
+            parameters: case.params.iter().filter_map(named).collect(),
+            generation,
+            summary,
+        }
     }
 }
 
@@ -199,8 +328,12 @@ fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit>
         return fail(reporter, Exit::Usage, diagnostic.hint(format!("a mesh is given with `-i {name}`")));
     }
     let from_stdin = |path: &PathBuf| files::is_standard_stream(path);
-    if from_stdin(&arguments.program) && arguments.input.as_ref().is_some_and(from_stdin) {
+    let meshes = arguments.input.iter().filter(|path| from_stdin(path)).count();
+    if from_stdin(&arguments.program) && meshes > 0 {
         return fail(reporter, Exit::Usage, error("program and mesh cannot both be read from stdin"));
+    }
+    if meshes > 1 {
+        return fail(reporter, Exit::Usage, error("only one mesh can be read from stdin"));
     }
     if arguments.summary.is_some() && arguments.output.to_stdout() {
         return fail(reporter, Exit::Usage, error("`--summary json` and `-o -` both need stdout for themselves"));
@@ -209,7 +342,10 @@ fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit>
 }
 
 /// Which rule to apply how often; `None` if the program has only `start`.
-fn plan(arguments: &Arguments, program: &Program) -> Result<(Option<FunctionId>, u64), (Exit, Box<Diagnostic>)> {
+fn what_to_apply(
+    arguments: &Arguments,
+    program: &Program,
+) -> Result<(Option<FunctionId>, u64), (Exit, Box<Diagnostic>)> {
     let name = files::shown(&arguments.program);
     let names: Vec<_> = program.rules.iter().filter_map(|&r| program.function(r)).map(|f| f.name.as_str()).collect();
     if names.is_empty() && program.start.is_none() {
@@ -223,13 +359,14 @@ fn plan(arguments: &Arguments, program: &Program) -> Result<(Option<FunctionId>,
         }
         None => program.default_rule(),
     };
-    let steps = arguments.steps.unwrap_or(u64::from(rule.is_some()));
+    let last = arguments.generations.as_ref().map(plan::Generations::last);
+    let steps = arguments.steps.or(last).unwrap_or(u64::from(rule.is_some()));
     if rule.is_none() && steps > 0 {
         let diagnostic =
             error(format!("{name} has no rule to apply {steps} times, only `start`")).hint("leave out `-n`");
         return Err((Exit::Usage, diagnostic.into()));
     }
-    if program.start.is_none() && arguments.input.is_none() {
+    if program.start.is_none() && arguments.input.is_empty() {
         let diagnostic = error(format!("{name} has no `start` that would make a mesh, so it needs one"))
             .hint("add `-i MESH`, an .obj, .off, .ply, .stl, .glb or .gltf file");
         return Err((Exit::Usage, diagnostic.into()));
@@ -262,109 +399,4 @@ fn seed(text: &str) -> Result<u64, String> {
 fn tolerance(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
     number.ok_or_else(|| "a tolerance is a number such as 1e-9".to_owned())
-}
-
-/// One run of a program.
-struct Run<'a> {
-    arguments: &'a Arguments,
-    machine: &'a Machine,
-    settings: Settings,
-    reporter: &'a Reporter,
-}
-
-impl Run<'_> {
-    /// `start` and the steps of the rule. Also returns what was before, and the messages of warnings.
-    fn generations(
-        &self,
-        input: Mesh,
-        rule: Option<(FunctionId, u64)>,
-        printer: &mut Printer,
-        timings: &mut Timings,
-    ) -> Result<(Mesh, Past, Vec<String>), Exit> {
-        let mut past = Past::default();
-        past.lineage.add(0, &Survivors::default());
-        let mut warnings = Vec::new();
-        let mut mesh = input;
-        if self.machine.program().start.is_some() {
-            let first = self.generation("`start`", &mut *printer, |settings, printer| {
-                evaluation::first(self.machine, &mesh, settings, printer)
-            })?;
-            warnings.extend(self.warn("`start`", &first.warnings));
-            mesh = first.mesh;
-        }
-        let Some((rule, steps)) = rule else { return Ok((mesh, past, warnings)) };
-        let name = self.machine.program().function(rule).map_or("", |f| f.name.as_str());
-        for step in 1..=steps {
-            let what = format!("step {step} of {steps} of `{name}`");
-            self.reporter.progress(format!("{what}: {} vertices", mesh.set.len()));
-            let next = self.generation(&what, &mut *printer, |settings, printer| {
-                evaluation::advance(self.machine, rule, &mesh, step, settings, printer)
-            })?;
-            warnings.extend(self.warn(&what, &next.warnings));
-            past.lineage.add(step, &next.survivors);
-            past.generation = step;
-            past.before = Some(std::mem::replace(&mut mesh, next.mesh));
-            timings.steps_s.push(next.step_s);
-            timings.closing_s.push(next.closing_s);
-        }
-        Ok((mesh, past, warnings))
-    }
-
-    /// Makes one generation in the time it has.
-    fn generation(
-        &self,
-        what: &str,
-        printer: &mut Printer,
-        make: impl FnOnce(&Settings, &mut Printer) -> Result<Generation, Failure>,
-    ) -> Result<Generation, Exit> {
-        let result = within(self.arguments.importing.timeout.0, |stop| {
-            make(&Settings { stop: stop.clone(), ..self.settings.clone() }, printer)
-        });
-        let flushed = printer.flush(self.reporter);
-        match result {
-            Err(failure) if failure.kind == FailureKind::OutputClosed => Err(flushed.err().unwrap_or(Exit::File)),
-            Err(failure) => {
-                let exit = match failure.kind {
-                    FailureKind::Program => Exit::Program,
-                    FailureKind::Budget | FailureKind::Stopped(_) => Exit::Budget,
-                    FailureKind::OutputClosed => Exit::File,
-                };
-                let mut diagnostic = failure.diagnostic.evidence(format!("this was in {what}"));
-                if let FailureKind::Stopped(_) = failure.kind {
-                    diagnostic = diagnostic.hint("allow more time with `--timeout SECONDS`");
-                } else if exit == Exit::Budget && diagnostic.message.ends_with(" vertices") {
-                    diagnostic = diagnostic.hint("allow more with `--max-vertices N`");
-                }
-                self.reporter.report(&[diagnostic], &self.machine.program().sources);
-                Err(exit)
-            }
-            Ok(generation) => flushed.map(|()| generation),
-        }
-    }
-
-    /// Reports what a step left odd and returns the messages.
-    fn warn(&self, what: &str, warnings: &[Diagnostic]) -> Vec<String> {
-        let warnings: Vec<_> = warnings
-            .iter()
-            .cloned()
-            .map(|mut warning| {
-                warning.message = format!("after {what}: {}", warning.message);
-                warning
-            })
-            .collect();
-        self.reporter.report(&warnings, &self.machine.program().sources);
-        warnings_of(&warnings)
-    }
-
-    /// Does something in the time a step has.
-    fn in_time<T>(&self, what: &str, work: impl FnOnce(&Stop) -> Result<T, vv::stop::Stopped>) -> Result<T, Exit> {
-        self.reporter.progress(what.to_owned());
-        within(self.arguments.importing.timeout.0, work).map_err(|stopped| {
-            let diagnostic = error(stopped.to_string())
-                .evidence(format!("this was while {what}"))
-                .hint("allow more time with `--timeout SECONDS`");
-            self.reporter.report(&[diagnostic], &Sources::default());
-            Exit::Budget
-        })
-    }
 }

@@ -10,6 +10,7 @@ mod outputs;
 mod pictures;
 mod programs;
 mod references;
+mod several;
 mod summary;
 mod usage;
 mod window;

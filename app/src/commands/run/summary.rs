@@ -1,6 +1,9 @@
 //! What `--summary json` writes.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
+use vv::mesh::Value;
 use vv::mesh::statistics::Statistics;
 
 /// The result of a run as numbers.
@@ -19,10 +22,26 @@ pub struct Summary {
     /// Messages of everything that was warned of: by the checker, on import, after steps.
     warnings: Vec<String>,
     timings: Timings,
+    /// Most memory the process has taken so far, in bytes; null where the system does not tell.
+    peak_memory_bytes: Option<u64>,
+}
+
+/// The summary of one of several.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    /// The mesh that was read.
+    pub input: Option<String>,
+    /// The values that parameters were given.
+    pub parameters: BTreeMap<String, serde_json::Value>,
+    /// How often the rule was applied.
+    pub generation: u64,
+    /// The rest.
+    #[serde(flatten)]
+    pub summary: Summary,
 }
 
 /// Where the time went, in seconds.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Timings {
     /// Reading the mesh.
     pub load_s: f64,
@@ -70,6 +89,33 @@ impl Summary {
             valid,
             warnings,
             timings,
+            peak_memory_bytes: peak_memory(),
         }
     }
+}
+
+impl Line {
+    /// On one line.
+    pub fn text(&self) -> String {
+        // As with [`crate::commands::info::json`], nothing in it can fail.
+        serde_json::to_string(self).unwrap_or_default() + "\n"
+    }
+}
+
+/// A value in JSON.
+pub fn value(value: Value) -> serde_json::Value {
+    match value {
+        Value::Bool(b) => b.into(),
+        Value::Int(i) => i.into(),
+        Value::Double(x) => x.into(),
+        Value::Vec(v) => v.to_array().to_vec().into(),
+        Value::Vertex(_) => serde_json::Value::Null, // no parameter is one
+    }
+}
+
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kilobytes * 1024)
 }

@@ -14,6 +14,7 @@ const FIELDS: &[&str] = &[
     "valid",
     "warnings",
     "timings",
+    "peak_memory_bytes",
 ];
 const TIMINGS: &[&str] = &["load_s", "compile_s", "steps_s", "closing_s", "faces_s", "export_s", "render_s", "total_s"];
 
@@ -51,6 +52,8 @@ fn it_is_the_whole_of_stdout() {
         assert_eq!(summary["timings"][list].as_array().unwrap().len(), 2, "{list}");
     }
     assert!(summary["timings"]["total_s"].as_f64().unwrap() > 0.0);
+    #[cfg(target_os = "linux")]
+    assert!(summary["peak_memory_bytes"].as_u64().unwrap() > 1 << 20);
 }
 
 #[test]

@@ -1,0 +1,231 @@
+//! Which files a run makes of which generation.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use vv::diagnostic::Diagnostic;
+
+use super::cases::{Case, Cases};
+use super::names::{GENERATION, INPUT, Name};
+use crate::commands::output::Target;
+use crate::commands::{closest, error, list};
+use app::files;
+
+/// Most files of one command.
+const MOST_FILES: u64 = 100_000;
+
+/// Generations that were asked for, in order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Generations(Vec<u64>);
+
+impl Generations {
+    /// The last one.
+    pub fn last(&self) -> u64 {
+        self.0.last().copied().unwrap_or_default()
+    }
+}
+
+/// Reads `0,2,4` and `0-3`.
+///
+/// # Errors
+/// As one sentence.
+pub fn generations(text: &str) -> Result<Generations, String> {
+    let wrong = || "generations are counted: 0,2,4 or 0-3".to_owned();
+    let mut all = std::collections::BTreeSet::new();
+    for part in text.split(',') {
+        let (from, to) = part.split_once('-').unwrap_or((part, part));
+        let number = |text: &str| text.trim().parse::<u64>().map_err(|_| wrong());
+        let (from, to) = (number(from)?, number(to)?);
+        if from > to || to - from >= MOST_FILES {
+            return Err(wrong());
+        }
+        all.extend(from..=to);
+    }
+    Ok(Generations(all.into_iter().collect()))
+}
+
+/// What was given on the command line.
+#[derive(Debug, Clone, Copy)]
+pub struct Given<'a> {
+    /// The program.
+    pub program: &'a Path,
+    /// The meshes.
+    pub inputs: &'a [PathBuf],
+    /// The generations.
+    pub generations: Option<&'a Generations>,
+}
+
+/// What is made of each run and generation.
+#[derive(Debug)]
+pub struct Plan {
+    program: PathBuf,
+    inputs: Vec<PathBuf>,
+    cases: Cases,
+    outputs: Vec<(Name, Target)>,
+    /// How often the rule is applied.
+    steps: u64,
+    /// The generations that `{n}` stands for; `None` for all of them.
+    generations: Option<Vec<u64>>,
+    /// Whether anything asks for more than the last generation.
+    by_generation: bool,
+}
+
+impl Plan {
+    /// Checked: no file is written twice.
+    ///
+    /// # Errors
+    /// What cannot be meant so.
+    pub fn new(given: Given<'_>, outputs: Vec<Target>, cases: Cases, steps: u64) -> Result<Self, Box<Diagnostic>> {
+        let mut named = Vec::new();
+        for target in outputs {
+            let name = match files::is_standard_stream(target.path()) {
+                true => Name::literal(target.path()),
+                false => Name::parse(target.path()).map_err(|wrong| Box::new(error(wrong)))?,
+            };
+            named.push((name, target));
+        }
+        if let Some(last) = given.generations.map(Generations::last).filter(|last| *last > steps) {
+            let message = format!("there is no generation {last} after {steps} steps");
+            return Err(Box::new(error(message).hint(format!("apply the rule more often: `-n {last}`"))));
+        }
+        let by_generation = given.generations.is_some() || named.iter().any(|(name, _)| name.has(GENERATION));
+        let plan = Self {
+            program: given.program.to_owned(),
+            inputs: given.inputs.to_owned(),
+            cases,
+            outputs: named,
+            steps,
+            generations: given.generations.map(|generations| generations.0.clone()),
+            by_generation,
+        };
+        plan.check_names()?;
+        Ok(plan)
+    }
+
+    /// All runs.
+    pub fn cases(&self) -> &[Case] {
+        &self.cases.all
+    }
+
+    /// Whether there is more than one result.
+    pub fn has_many(&self) -> bool {
+        self.cases.all.len() > 1 || self.by_generation
+    }
+
+    /// Whether this is the generation that a run ends with.
+    pub fn is_last(&self, generation: u64) -> bool {
+        generation == self.steps
+    }
+
+    /// Whether it is one of those that are asked for.
+    pub fn is_shown(&self, generation: u64) -> bool {
+        match &self.generations {
+            _ if !self.by_generation => self.is_last(generation),
+            Some(listed) => listed.binary_search(&generation).is_ok(),
+            None => true,
+        }
+    }
+
+    /// What distinguishes this run from the others; `None` if it is the only one.
+    pub fn label(&self, case: &Case) -> Option<String> {
+        let value = |(name, _): &(String, Vec<String>)| Some(format!("{name} = {}", case.value(name)?));
+        let input = self.inputs.get(case.input).filter(|_| self.inputs.len() > 1);
+        let parts: Vec<_> = input
+            .map(|path| files::shown(path))
+            .into_iter()
+            .chain(self.cases.sweeps.iter().filter_map(value))
+            .collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
+    }
+
+    /// What is written of a generation of a run.
+    pub fn targets(&self, case: &Case, generation: u64) -> Vec<Target> {
+        let due = |name: &Name| match name.has(GENERATION) {
+            true => self.is_shown(generation),
+            false => self.is_last(generation),
+        };
+        let at = |(name, target): &(Name, Target)| target.at(self.path(name, case, generation));
+        self.outputs.iter().filter(|(name, _)| due(name)).map(at).collect()
+    }
+
+    /// Everything that is written.
+    pub fn all_targets(&self) -> Vec<Target> {
+        let of_case = |case| self.shown().flat_map(move |generation| self.targets(case, generation));
+        self.cases.all.iter().flat_map(of_case).collect()
+    }
+
+    fn path(&self, name: &Name, case: &Case, generation: u64) -> PathBuf {
+        name.fill(|what| match what {
+            GENERATION => Some(generation.to_string()),
+            INPUT => Some(case.name(&self.inputs, &self.program)),
+            parameter => case.value(parameter).map(str::to_owned),
+        })
+    }
+
+    /// The generations of which something is written or told; the last one always.
+    fn shown(&self) -> impl Iterator<Item = u64> {
+        let (listed, all) = match (&self.generations, self.by_generation) {
+            (Some(listed), _) => (listed.as_slice(), 0..0),
+            (None, true) => (&[][..], 0..self.steps),
+            (None, false) => (&[][..], 0..0),
+        };
+        listed.iter().copied().filter(|generation| *generation != self.steps).chain(all).chain([self.steps])
+    }
+
+    /// Places are known, and every file has a name of its own.
+    fn check_names(&self) -> Result<(), Box<Diagnostic>> {
+        let parameters: Vec<&str> =
+            self.cases.all.first().map_or(vec![], |case| case.values.iter().map(|(name, _)| name.as_str()).collect());
+        for (name, _) in &self.outputs {
+            let known = |what: &str| [GENERATION, INPUT].contains(&what) || parameters.contains(&what);
+            if let Some(what) = name.places().find(|what| !known(what)) {
+                let names = [GENERATION, INPUT].into_iter().chain(parameters.iter().copied());
+                let message = format!("`-o {}`: nothing is called `{what}`", name.path().display());
+                let diagnostic = error(message).evidence(format!("there are {}", list(names.clone())));
+                return Err(Box::new(match closest(what, names) {
+                    Some(near) => diagnostic.hint(format!("did you mean `{{{near}}}`?")),
+                    None => diagnostic.hint(format!("`-D {what}=…` gives it a value; `{{{{` is a brace")),
+                }));
+            }
+        }
+        let generations = if self.by_generation { self.steps.saturating_add(1) } else { 1 };
+        let files = generations.saturating_mul((self.cases.all.len() * self.outputs.len().max(1)) as u64);
+        if files > MOST_FILES {
+            return Err(Box::new(error(format!("these would be more than {MOST_FILES} files"))));
+        }
+        let mut taken: BTreeMap<PathBuf, ()> = BTreeMap::new();
+        for target in self.all_targets() {
+            if taken.insert(target.path().to_owned(), ()).is_some() {
+                return Err(Box::new(self.written_twice(target.path())));
+            }
+        }
+        Ok(())
+    }
+
+    fn written_twice(&self, path: &Path) -> Diagnostic {
+        let diagnostic = error(format!("`-o {}` would be written more than once", path.display()));
+        let input = (self.inputs.len() > 1).then_some(INPUT);
+        let places: Vec<String> = input
+            .into_iter()
+            .chain(self.cases.sweeps.iter().map(|(name, _)| name.as_str()))
+            .map(|name| format!("{{{name}}}"))
+            .collect();
+        match places.as_slice() {
+            [] => diagnostic,
+            places => diagnostic.hint(format!("put {} into its name", list(places.iter().map(String::as_str)))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn generations_are_numbers_and_ranges() {
+        assert_eq!(generations("0-2, 7,2"), Ok(Generations(vec![0, 1, 2, 7])));
+        for wrong in ["", "a", "3-1", "-1", "0-", "1-99999999"] {
+            assert!(generations(wrong).is_err(), "{wrong}");
+        }
+    }
+}
