@@ -9,9 +9,11 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use app::command::{Command, Panel, TextAction, ThemeChoice};
+use app::annotate::Quantity;
+use app::command::{Command, Inspect, PairAction, Panel, TextAction, ThemeChoice};
 use app::document::MeshSource;
 use app::gui::App;
+use app::scene::Surface;
 use app::session::{Dialog, Purpose};
 use app::store::Store;
 use eframe::egui;
@@ -72,6 +74,51 @@ const STATES: &[State] = &[
     State { name: "menu-edit", prepare: |w| click(w, "Edit") },
     State { name: "menu-run", prepare: |w| click(w, "Run") },
     State { name: "menu-view", prepare: |w| click(w, "View") },
+    State { name: "menu-subdivide", prepare: |w| click(w, "Subdivide") },
+    State { name: "menu-camera", prepare: |w| click(w, "Camera") },
+    State { name: "menu-inspect", prepare: |w| click(w, "Inspect") },
+    State { name: "menu-show", prepare: |w| click(w, "Show") },
+    State { name: "menu-help", prepare: |w| click(w, "Help") },
+    State {
+        name: "selected",
+        prepare: |w| {
+            do_(w, Command::GoTo(1));
+            settle(w);
+            do_(w, Command::Inspect(Inspect::SelectNumbers(vec![12])));
+        },
+    },
+    State {
+        name: "selected-and-walked",
+        prepare: |w| {
+            do_(w, Command::GoTo(1));
+            settle(w);
+            do_(w, Command::Inspect(Inspect::SelectNumbers(vec![12])));
+            for _ in 0..2 {
+                do_(w, Command::Inspect(Inspect::WalkOn));
+            }
+        },
+    },
+    State { name: "select-vertex", prepare: |w| do_(w, Command::Inspect(Inspect::AskForVertex)) },
+    State {
+        name: "side-by-side",
+        prepare: |w| {
+            do_(w, Command::Pair(PairAction::Compare));
+            settle(w);
+            do_(w, Command::OpenExample("butterfly.vv"));
+        },
+    },
+    State { name: "curvature", prepare: |w| do_(w, Command::ColorBy(Quantity::Gauss)) },
+    State { name: "reflection-lines", prepare: |w| do_(w, Command::ShowBy(Surface::ReflectionLines)) },
+    State {
+        name: "cut",
+        prepare: |w| {
+            do_(w, Command::Cut);
+            do_(w, Command::Grid);
+            do_(w, Command::Axes);
+        },
+    },
+    State { name: "exhibit-tissue", prepare: |w| exhibit(w, "tissue.vv", 40) },
+    State { name: "exhibit-reaction", prepare: |w| exhibit(w, "reaction-diffusion.vv", 30) },
     State { name: "menu-examples", prepare: |w| click(w, "Examples") },
     State { name: "menu-meshes", prepare: |w| click(w, "Meshes") },
     State {
@@ -213,8 +260,16 @@ fn do_(window: &mut Window, command: Command) {
     window.run_steps(2);
 }
 
+fn exhibit(window: &mut Window, program: &'static str, generation: u64) {
+    do_(window, Command::Exhibit { program, keep_mesh: false });
+    do_(window, Command::GoTo(generation));
+}
+
 fn click(window: &mut Window, label: &str) {
-    window.get_by_label(label).click();
+    match window.query_by_label(label) {
+        Some(node) => node.click(),
+        None => eprintln!("there is no {label} to be clicked"),
+    }
     window.run_steps(4);
 }
 

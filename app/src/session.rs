@@ -413,6 +413,7 @@ impl Session {
         match command {
             Command::NewProgram => self.unless_unsaved(command, |s| {
                 s.set_program(ProgramText::new("untitled.vv", ""));
+                s.document.generation = 0; // what has no rule has no steps
             }),
             Command::Choose(purpose) => self.choose(purpose),
             Command::Open(ref path) if is_program(path) => {

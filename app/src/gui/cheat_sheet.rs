@@ -101,17 +101,24 @@ fn show_section(ui: &mut Ui, section: &Section) {
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();
     for (keys, label) in &section.rows {
+        let long = |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE).size().x;
+        let (name, wanted) = (long(label), long(keys) + 12.0);
+        let room = width - name - wanted - 28.0;
+        if room < 8.0 {
+            ui.label(label); // the keys get a line of their own
+        }
         ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 4.0;
-            let name = ui.label(label);
-            let wanted = ui.painter().layout_no_wrap(keys.clone(), font.clone(), Color32::WHITE).size().x + 12.0;
-            ui.add_space((width - name.rect.width() - wanted - 24.0).max(8.0));
-            Frame::NONE.fill(ui.visuals().faint_bg_color).corner_radius(4).inner_margin(Margin::symmetric(6, 1)).show(
-                ui,
-                |ui| {
-                    ui.label(RichText::new(keys).color(ui.visuals().weak_text_color()));
-                },
-            );
+            ui.spacing_mut().item_spacing.x = 0.0;
+            if room < 8.0 {
+                ui.add_space((width - wanted - 28.0).max(0.0));
+            } else {
+                ui.label(label);
+                ui.add_space(room);
+            }
+            let frame = Frame::NONE.fill(ui.visuals().faint_bg_color).corner_radius(4);
+            frame.inner_margin(Margin::symmetric(6, 1)).show(ui, |ui| {
+                ui.label(RichText::new(keys).color(ui.visuals().weak_text_color()));
+            });
         });
     }
     ui.allocate_space(vec2(1.0, 10.0));

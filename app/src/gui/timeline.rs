@@ -1,7 +1,8 @@
 //! The generations in a row: where we are, where we have been, what is kept.
 
 use eframe::egui::{
-    Align, Align2, ComboBox, CursorIcon, Layout, Rect, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    self, Align, Align2, ComboBox, CursorIcon, Key, Layout, Rect, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::widgets::{Icon, grouped, icon_button, seconds, tooltip};
@@ -30,6 +31,24 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| track(ui, session, commands));
         });
     });
+}
+
+/// The keys mean the time line while it has them.
+fn by_keys(ui: &Ui, session: &Session, id: egui::Id, commands: &mut Vec<Command>) {
+    let keys = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
+    ui.memory_mut(|m| m.set_focus_lock_filter(id, keys));
+    let all = [
+        (Key::ArrowLeft, Command::Back),
+        (Key::ArrowRight, Command::Step),
+        (Key::Home, Command::Rewind),
+        (Key::End, Command::End),
+        (Key::Space, Command::Play),
+    ];
+    for (key, command) in all {
+        if command.is_enabled(session) && ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, key)) {
+            commands.push(command);
+        }
+    }
 }
 
 fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -64,6 +83,10 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         if generation != wanted {
             commands.push(Command::Scrub(generation));
         }
+    }
+    if response.has_focus() {
+        by_keys(ui, session, response.id, commands);
+        ui.painter().rect_stroke(rect, 4.0, visuals.widgets.active.bg_stroke, egui::StrokeKind::Inside);
     }
     let hovered = response.hover_pos().map(|pos| under(pos.x)).filter(|_| !response.dragged());
     let painter = ui.painter().with_clip_rect(rect);

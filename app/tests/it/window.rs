@@ -7,6 +7,7 @@ mod gallery;
 mod inspecting;
 mod keeping;
 mod palette;
+mod reach;
 mod subdividing;
 mod timeline;
 mod view;

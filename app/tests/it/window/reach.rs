@@ -1,0 +1,98 @@
+//! The window for those who do not see it, or have no mouse: everything has a name and is reached by Tab.
+
+use super::*;
+use app::command::{MENUS, Panel};
+use app::session::Dialog;
+use std::collections::BTreeSet;
+
+/// What can be operated in the window as it is, with what each is called.
+fn operable(window: &Harness<'static, App>) -> Vec<(Role, String)> {
+    let roles = [
+        Role::Button,
+        Role::CheckBox,
+        Role::RadioButton,
+        Role::Slider,
+        Role::SpinButton,
+        Role::ComboBox,
+        Role::TextInput,
+        Role::MultilineTextInput,
+        Role::Link,
+    ];
+    let nodes = window.query_all_by(move |node| roles.contains(&node.role()) && !node.is_hidden());
+    nodes
+        .map(|node| {
+            let node = node.accesskit_node();
+            (node.role(), node.label().or_else(|| node.placeholder().map(str::to_owned)).unwrap_or_default())
+        })
+        .collect()
+}
+
+#[track_caller]
+fn all_have_names(window: &Harness<'static, App>, place: &str) {
+    assert!(operable(window).len() > 3, "{place}: {:?}", operable(window));
+    let nameless: Vec<_> = operable(window).into_iter().filter(|(_, name)| name.trim().is_empty()).collect();
+    assert!(nameless.is_empty(), "{place}: {nameless:?}");
+}
+
+#[test]
+fn everything_that_can_be_operated_has_a_name() {
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    all_have_names(&window, "window");
+    let dialogs = [Command::Gallery, Command::Preferences, Command::SavePicture, Command::Palette, Command::CheatSheet];
+    for command in dialogs {
+        window.state_mut().apply(command.clone());
+        window.run_steps(4);
+        all_have_names(&window, command.describe().label);
+        window.state_mut().apply(Command::CloseDialog);
+        window.run_steps(2);
+    }
+    window.state_mut().apply(Command::NewProgram);
+    window.run_steps(3);
+    assert!(matches!(window.state().session().dialog, Some(Dialog::Unsaved { .. })));
+    all_have_names(&window, "unsaved");
+    window.state_mut().apply(Command::CloseDialog);
+    window.state_mut().apply(Command::Reference);
+    window.run_steps(4);
+    all_have_names(&window, "reference");
+}
+
+#[test]
+fn tab_goes_through_all_that_can_be_operated() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::Toggle(Panel::Program)); // in which Tab means itself
+    window.run_steps(2);
+    let focused = |window: &Harness<'static, App>| {
+        let node = window.query_all_by(|node| node.is_focused()).next()?;
+        node.accesskit_node().label()
+    };
+    let mut reached = BTreeSet::new();
+    for _ in 0..120 {
+        window.key_press(Key::Tab);
+        window.step();
+        reached.extend(focused(&window));
+    }
+    for name in
+        ["Step", "Play", "File", "Generation", "Rule", "Faces", "Smooth", "Fit view", "Time line", "Speed", "Problems"]
+    {
+        assert!(reached.contains(name), "{name} is not among {reached:?}");
+    }
+}
+
+#[test]
+fn the_time_line_is_walked_by_arrows_when_it_has_the_keys() {
+    let mut window = octahedron();
+    press(&mut window, Key::Num2);
+    window.get_by_label("Time line").focus();
+    window.step();
+    press(&mut window, Key::ArrowLeft);
+    assert_eq!(window.state().session().document.generation, 1);
+}
+
+#[test]
+fn every_command_of_the_menus_is_described() {
+    for command in MENUS.iter().flat_map(|m| m.groups).copied().flatten() {
+        let description = command.describe();
+        assert!(!description.label.is_empty() && !description.tooltip.is_empty(), "{command:?}");
+    }
+}
