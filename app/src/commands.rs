@@ -12,6 +12,7 @@ mod lsp;
 mod mask;
 mod open;
 mod output;
+mod paper;
 mod picture;
 mod reference;
 mod report;

@@ -7,6 +7,7 @@ pub mod compare;
 pub mod console;
 pub mod document;
 pub mod evaluation;
+pub mod figure;
 pub mod files;
 pub mod gallery;
 pub mod gui;

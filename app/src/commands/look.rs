@@ -1,11 +1,14 @@
 //! How pictures look.
 
 use app::annotate::{Annotations, Arrows, Quantity};
+use app::figure::{Class, Line, Page, Settings};
 use app::inspect::lineage::Lineage;
 use app::scene::{Axis, Cut, Style, Surface, Theme};
 use clap::Args;
 use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
+
+use super::paper;
 
 /// Options of everything that draws pictures.
 #[derive(Debug, Clone, Args)]
@@ -28,6 +31,15 @@ pub struct LookArguments {
     /// middle, from -1 to 1.
     #[arg(long, value_name = "AXIS[:PLACE]", allow_hyphen_values = true, value_parser = cut)]
     cut: Option<Cut>,
+    /// Size of figures: a width such as 85mm, or a width and a height that they fit into, such as 85x60mm. Default:
+    /// 120x160mm.
+    #[arg(long, value_name = "W[xH]mm", value_parser = paper::page)]
+    page: Option<Page>,
+    /// How figures draw lines that are outline, boundary, crease, inner, control or hidden: width in points, colour, and
+    /// solid, dashed or dotted, in any order, such as inner=0.3,#888 or hidden=dotted; `hidden` draws them, `inner=none`
+    /// does not. May be repeated.
+    #[arg(long, value_name = "CLASS[=LOOK]", value_parser = paper::line)]
+    line: Vec<(Class, Option<Line>)>,
 }
 
 /// What a picture shows beside mesh and faces.
@@ -37,6 +49,8 @@ pub struct Look {
     pub style: Style,
     /// What is shown on it.
     pub annotations: Annotations,
+    /// How a figure is drawn.
+    pub figure: Settings,
 }
 
 /// A mesh and where it comes from.
@@ -66,8 +80,14 @@ impl LookArguments {
     pub fn look(&self) -> Look {
         let mut style = Style { cut: self.cut.unwrap_or_default(), ..Style::default() };
         self.style.iter().for_each(|word| word.apply(&mut style));
+        let mut figure = Settings::default();
+        figure.page = self.page.unwrap_or(figure.page);
+        for &(class, line) in &self.line {
+            figure.lines[class as usize] = line;
+        }
         let (color_by, arrows) = (self.color_by.clone().unwrap_or_default(), self.arrows.clone().unwrap_or_default());
-        Look { style, annotations: Annotations { color_by, range: self.color_range, arrows, ..Annotations::default() } }
+        let annotations = Annotations { color_by, range: self.color_range, arrows, ..Annotations::default() };
+        Look { style, annotations, figure }
     }
 }
 

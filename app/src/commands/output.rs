@@ -1,9 +1,10 @@
-//! Files that commands write: meshes and pictures.
+//! Files that commands write: meshes, pictures and figures.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use app::figure;
 use app::files::{self, Prepared};
 use app::viewpoint::Viewpoint;
 use clap::Args;
@@ -20,12 +21,12 @@ use super::{Exit, error, fail, input, picture, view};
 /// What to write.
 #[derive(Debug, Args)]
 pub struct OutputArguments {
-    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf) or a picture of it (.png); `-` is stdout. May be repeated.
+    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf), a picture of it (.png) or a figure for a paper, of lines and areas (.svg); `-` is stdout. May be repeated.
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// What `-o -` writes, and files whose extension does not say or of which there are several kinds.
-    #[arg(long, value_parser = output_format())]
-    format: Option<OutputFormat>,
+    #[arg(long, value_parser = kind())]
+    format: Option<Kind>,
     /// Size of pictures in pixels. Default: that of the reference picture, else 1280x960.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
@@ -34,16 +35,27 @@ pub struct OutputArguments {
     view: Option<String>,
 }
 
-/// A mesh format; `None` is a picture.
+/// What a file is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct OutputFormat(Option<Format>);
+enum Kind {
+    /// A mesh.
+    Mesh(Format),
+    /// A picture in pixels.
+    Picture,
+    /// A figure of lines and areas.
+    Figure(figure::Format),
+}
 
 /// The extension and name of pictures.
 const PICTURE: &str = "png";
 
-fn output_format() -> impl TypedValueParser<Value = OutputFormat> {
-    let names = Format::ALL.map(Format::name).into_iter().chain([PICTURE]);
-    PossibleValuesParser::new(names).map(|name| OutputFormat(Format::from_name(&name)))
+fn kind() -> impl TypedValueParser<Value = Kind> {
+    let figures = figure::Format::ALL.map(figure::Format::extension);
+    let names = Format::ALL.map(Format::name).into_iter().chain([PICTURE]).chain(figures);
+    PossibleValuesParser::new(names).map(|name| match Format::from_name(&name) {
+        Some(format) => Kind::Mesh(format),
+        None => figure::Format::from_extension(&name).map_or(Kind::Picture, Kind::Figure),
+    })
 }
 
 /// Width and height in pixels.
@@ -59,8 +71,7 @@ const MOST_PIXELS: u64 = 1 << 28;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Target {
     path: PathBuf,
-    /// Mesh format; `None` is a picture.
-    format: Option<Format>,
+    kind: Kind,
 }
 
 /// What was written, and how long it took.
@@ -115,33 +126,41 @@ impl OutputArguments {
             if targets.iter().any(|target| target.path == *path) {
                 return fail(reporter, Exit::Usage, error(format!("`-o {}` is given twice", path.display())));
             }
-            match self.format_of(path) {
-                Ok(format) => targets.push(Target { path: path.clone(), format }),
+            match self.kind_of(path) {
+                Ok(kind) => targets.push(Target { path: path.clone(), kind }),
                 Err(diagnostic) => return fail(reporter, Exit::Usage, *diagnostic),
             }
         }
-        if targets.iter().any(|target| target.format.is_none()) {
+        if targets.iter().any(|target| target.kind == Kind::Picture) {
             picture::keep_driver_quiet();
         }
         Ok(targets)
     }
 
-    fn format_of(&self, path: &Path) -> Result<Option<Format>, Box<Diagnostic>> {
+    fn kind_of(&self, path: &Path) -> Result<Kind, Box<Diagnostic>> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
-        let asked = self.format.and_then(|OutputFormat(format)| format);
         if let Some(format) = Format::from_extension(&extension) {
-            return Ok(Some(asked.filter(|asked| asked.extension() == format.extension()).unwrap_or(format)));
+            return Ok(match self.format {
+                Some(Kind::Mesh(asked)) if asked.extension() == format.extension() => Kind::Mesh(asked),
+                _ => Kind::Mesh(format),
+            });
+        }
+        if let Some(format) = figure::Format::from_extension(&extension) {
+            return Ok(Kind::Figure(format));
         }
         if extension.eq_ignore_ascii_case(PICTURE) {
-            return Ok(None);
+            return Ok(Kind::Picture);
         }
         match self.format {
-            Some(OutputFormat(format)) => Ok(format),
+            Some(kind) => Ok(kind),
             None if files::is_standard_stream(path) => {
                 Err(error("`-o -` does not say what to write").hint("add `--format obj`, `ply`, `png`, …").into())
             }
             None => Err(error(format!("`-o {}` has no extension that vv writes", path.display()))
-                .hint(format!("write {} or a picture, `.png`, or say `--format`", files::mesh_extensions("or")))
+                .hint(format!(
+                    "write {}, a picture, `.png`, or a figure, `.svg`, or say `--format`",
+                    files::mesh_extensions("or")
+                ))
                 .into()),
         }
     }
@@ -187,25 +206,34 @@ pub fn prepare(
     reporter: &Reporter,
 ) -> Result<Outputs, Exit> {
     let mut outputs = Outputs::default();
-    if with_picture || targets.iter().any(|target| target.format.is_none()) {
+    if with_picture || targets.iter().any(|target| target.kind == Kind::Picture) {
         reporter.progress("drawing the picture".to_owned());
         let began = Instant::now();
         outputs.picture = Some(picture::picture(result, shot, reporter)?);
         outputs.render_s = began.elapsed().as_secs_f64();
     }
-    for Target { path, format } in targets {
+    let mut drawing = None;
+    for &Target { ref path, kind } in targets {
         reporter.progress(format!("writing {}", path.display()));
         let began = Instant::now();
-        let bytes = match (format, &outputs.picture) {
-            (Some(format), _) => match vv::io::write(result.mesh, result.faces, *format) {
+        let bytes = match (kind, &outputs.picture) {
+            (Kind::Mesh(format), _) => match vv::io::write(result.mesh, result.faces, format) {
                 Ok(bytes) => bytes,
                 Err(problem) => return fail(reporter, Exit::File, error(problem.to_string())),
             },
-            (None, Some(picture)) => picture::png(picture, reporter)?,
-            (None, None) => Vec::new(),
+            (Kind::Figure(format), _) => {
+                let drawing = match &mut drawing {
+                    Some(drawing) => drawing,
+                    None => drawing.insert(picture::figure(result, shot, reporter)?),
+                };
+                figure::write(drawing, format)
+            }
+            (Kind::Picture, Some(picture)) => picture::png(picture, reporter)?,
+            (Kind::Picture, None) => Vec::new(),
         };
         outputs.prepared.push(files::prepare(path, &bytes).map_err(|error| input::file_failed(&error, reporter))?);
-        *if format.is_some() { &mut outputs.export_s } else { &mut outputs.render_s } += began.elapsed().as_secs_f64();
+        let is_mesh = matches!(kind, Kind::Mesh(_));
+        *if is_mesh { &mut outputs.export_s } else { &mut outputs.render_s } += began.elapsed().as_secs_f64();
     }
     Ok(outputs)
 }

@@ -5,6 +5,7 @@ use std::io::Cursor;
 use app::annotate::field::NoField;
 use app::annotate::{ArrowSet, Subject, Tint};
 use app::camera::Camera;
+use app::figure::{self, Drawing};
 use app::render::{self, Dressing, RenderError};
 use app::scene::{Scene, Style};
 use app::viewpoint::Viewpoint;
@@ -52,18 +53,59 @@ pub struct Shot<'a> {
     pub look: &'a Look,
 }
 
+/// All that a picture is made of.
+struct Staged {
+    scene: Scene,
+    tint: Option<Tint>,
+    arrows: ArrowSet,
+    camera: Camera,
+    style: Style,
+}
+
 /// A picture of a mesh.
 ///
 /// # Errors
 /// [`Exit::NoRenderer`], or [`Exit::Usage`] if the mesh lacks what it is to be coloured by; reported.
 pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<RgbaImage, Exit> {
+    let Staged { scene, tint, arrows, camera, style } = stage(result, shot, reporter)?;
+    let size = render::Size::new(shot.size.0, shot.size.1);
+    let dressing = Dressing { tint: tint.as_ref(), arrows: Some((&arrows, shot.look.annotations.arrow_length)) };
+    render::render_image(&scene, dressing, &camera, &style, size).or_else(|problem| {
+        let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
+        let diagnostic = match problem {
+            RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
+            RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
+        };
+        fail(reporter, Exit::NoRenderer, diagnostic)
+    })
+}
+
+/// A figure of a mesh.
+///
+/// # Errors
+/// [`Exit::Usage`] if the mesh lacks what it is to be coloured by, or nothing of it is seen; reported.
+pub fn figure(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<Drawing, Exit> {
+    let Staged { scene, camera, style, .. } = stage(result, shot, reporter)?;
+    let aspect = render::Size::new(shot.size.0, shot.size.1).aspect();
+    let subject = figure::Subject { scene: &scene, mesh: result.mesh };
+    let figure = &shot.look.figure;
+    let Ok(drawing) = figure::draw(subject, &camera, aspect, &style, figure, &Stop::new()) else {
+        return Err(Exit::Budget); // not reached: nobody stops it
+    };
+    match drawing {
+        Some(drawing) => Ok(drawing),
+        None => fail(reporter, Exit::Usage, error("nothing of the mesh is seen from there, so there is no figure")),
+    }
+}
+
+fn stage(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<Staged, Exit> {
     let look::Result { mesh, faces, past } = result;
-    let Look { style, annotations } = shot.look;
+    let Look { style, annotations, .. } = shot.look;
     let up = match shot.viewpoint {
         Some(Viewpoint::From { up, .. }) => up,
         _ => style.up,
     };
-    let style = &Style { up, ..*style };
+    let style = Style { up, ..*style };
     let size = render::Size::new(shot.size.0, shot.size.1);
     let never = Stop::new();
     let Ok(scene) = Scene::new(mesh, faces, None, &never) else {
@@ -93,24 +135,16 @@ pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) ->
             return fail(reporter, Exit::Usage, error("the picture cannot have these arrows").evidence(why));
         }
     };
-    let dressing = Dressing { tint: tint.as_ref(), arrows: Some((&arrows, annotations.arrow_length)) };
-    let standard = scene.standard_view(style, size.aspect());
+    let standard = scene.standard_view(&style, size.aspect());
     let camera = match shot.viewpoint {
         None => standard,
         Some(Viewpoint::At(camera)) => camera,
         Some(Viewpoint::From { side, orthographic, up }) => {
             let camera = Camera { orthographic, ..standard.from_side(side, up) };
-            scene.fit(camera, style, size.aspect())
+            scene.fit(camera, &style, size.aspect())
         }
     };
-    render::render_image(&scene, dressing, &camera, style, size).or_else(|problem| {
-        let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
-        let diagnostic = match problem {
-            RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
-            RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
-        };
-        fail(reporter, Exit::NoRenderer, diagnostic)
-    })
+    Ok(Staged { scene, tint, arrows, camera, style })
 }
 
 /// The picture in PNG format.

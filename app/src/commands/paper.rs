@@ -1,0 +1,92 @@
+//! `--page` and `--line`: what figures are like.
+
+use app::figure::{Class, Dash, Line, Page, Settings};
+
+use super::closest;
+
+/// Millimetres that a figure may be wide or high: some metres.
+const MOST: f64 = 5000.0;
+
+/// Reads a width, perhaps with a height.
+pub fn page(text: &str) -> Result<Page, String> {
+    let wrong = || "a page is a width in millimetres such as 85mm, or width and height such as 85x60mm".to_owned();
+    let text = text.strip_suffix("mm").unwrap_or(text).trim();
+    let length = |text: &str| text.trim().parse().ok().filter(|x| (1.0..=MOST).contains(x));
+    let (width, height) = match text.split_once(['x', 'X', '×']) {
+        Some((width, height)) => (width, Some(length(height.trim_start_matches("mm")).ok_or_else(wrong)?)),
+        None => (text, None),
+    };
+    Ok(Page { width: length(width.trim_end_matches("mm")).ok_or_else(wrong)?, height })
+}
+
+/// Reads a class of lines and how they look.
+pub fn line(text: &str) -> Result<(Class, Option<Line>), String> {
+    let (name, look) = text.split_once('=').unwrap_or((text, ""));
+    let names = Class::ALL.map(Class::name);
+    let Some(class) = Class::ALL.into_iter().find(|class| class.name() == name) else {
+        let nearest = closest(name, names).map_or(String::new(), |name| format!("; did you mean `{name}`?"));
+        return Err(format!("lines are {}{nearest}", names.join(", ")));
+    };
+    if look == "none" {
+        return Ok((class, None));
+    }
+    let mut line = Settings::line(class);
+    for word in look.split(',').map(str::trim).filter(|word| !word.is_empty()) {
+        match word {
+            "solid" => line.dash = Dash::Solid,
+            "dashed" => line.dash = Dash::Dashed,
+            "dotted" => line.dash = Dash::Dotted,
+            _ if word.starts_with('#') => {
+                line.color = color(word).ok_or_else(|| format!("`{word}` is no colour such as #888 or #1c293b"))?;
+            }
+            _ => {
+                let width = word.strip_suffix("pt").unwrap_or(word).parse().ok().filter(|w| (0.01..=100.0).contains(w));
+                line.width = width.ok_or_else(|| {
+                    format!("`{word}` is no width in points such as 0.5, no colour such as #888, and none of solid, dashed, dotted and none")
+                })?;
+            }
+        }
+    }
+    Ok((class, Some(line)))
+}
+
+/// `#rgb` or `#rrggbb`.
+fn color(text: &str) -> Option<[u8; 3]> {
+    let digits = text.strip_prefix('#')?;
+    let digits: Option<Vec<u8>> = digits.chars().map(|c| Some(c.to_digit(16)? as u8)).collect();
+    match digits?[..] {
+        [r, g, b] => Some([r, g, b].map(|c| c * 17)),
+        [r, s, g, h, b, c] => Some([r * 16 + s, g * 16 + h, b * 16 + c]),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_is_a_width_perhaps_with_a_height() {
+        assert_eq!(page("85mm"), Ok(Page { width: 85.0, height: None }));
+        assert_eq!(page("85"), page("85mm"));
+        assert_eq!(page("85x60.5mm"), Ok(Page { width: 85.0, height: Some(60.5) }));
+        assert_eq!(page("85mm x 60mm"), page("85x60"));
+        for wrong in ["", "mm", "0mm", "-5mm", "85cm", "1x2x3", "nan", "85x", "1e9mm"] {
+            assert!(page(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_line_is_a_class_with_width_colour_and_dash() {
+        let outline = Settings::line(Class::Outline);
+        assert_eq!(line("outline"), Ok((Class::Outline, Some(outline))));
+        assert_eq!(line("outline=none"), Ok((Class::Outline, None)));
+        let all = Line { width: 0.25, color: [0xff, 0, 0x88], dash: Dash::Dotted };
+        assert_eq!(line("outline=0.25pt,#f08,dotted"), Ok((Class::Outline, Some(all))));
+        assert_eq!(line("outline=dotted, #ff0088, 0.25"), Ok((Class::Outline, Some(all))));
+        for wrong in ["", "line", "inner=0", "inner=wide", "inner=#12", "inner=#12345g", "inner=-1", "inner=none,1"] {
+            assert!(line(wrong).is_err(), "{wrong}");
+        }
+        assert!(line("bondary").unwrap_err().ends_with("did you mean `boundary`?"));
+    }
+}

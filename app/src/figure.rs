@@ -1,0 +1,263 @@
+//! Figures for papers: lines and areas in SVG, EPS or PDF, sharp in any size. No GPU.
+//!
+//! ```text
+//!   Scene + Mesh ─ space ─► surface     triangles and classified edges in the space of the picture
+//!                             ├─ hidden   which parts of edges are seen
+//!                             └─ order    faces from back to front
+//!                                  └─ page ─ chain ─► svg, eps, pdf
+//! ```
+//!
+//! What is hidden is computed in double precision, not looked up in pixels: edges end exactly where a face covers them or
+//! where they pierce one. Approximated is only this: a face with more than three corners that is not flat is the triangles
+//! that the window shows too; and where two faces pierce each other, no line is drawn along their intersection.
+
+mod boxes;
+mod chain;
+mod hidden;
+mod page;
+mod space;
+mod surface;
+mod svg;
+
+use glam::{DVec3, Vec3Swizzles};
+use rayon::prelude::*;
+
+use vv::mesh::Mesh;
+use vv::stop::{Stop, Stopped};
+
+use crate::camera::Camera;
+use crate::scene::{Scene, Style};
+
+pub use page::{At, Drawing, Layer, Path};
+
+use hidden::{Hider, Interval};
+use page::Sketch;
+use space::Space;
+use surface::{Edge, Surface};
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Scalable Vector Graphics.
+    Svg,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 1] = [Self::Svg];
+
+    /// What the names of files end in.
+    #[must_use]
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+        }
+    }
+
+    /// That of an extension, large or small.
+    #[must_use]
+    pub fn from_extension(extension: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+}
+
+/// A kind of lines, in the order in which they are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// What faces hide of any line.
+    Hidden,
+    /// Between two faces that are seen from the same side.
+    Inner,
+    /// Of the control mesh.
+    Control,
+    /// Between a face seen from outside and one seen from inside.
+    Outline,
+    /// With a face on one side only, or none.
+    Boundary,
+    /// Whose property `sharpness` is more than 0.
+    Crease,
+}
+
+impl Class {
+    /// All of them, in the order in which they are drawn.
+    pub const ALL: [Self; 6] = [Self::Hidden, Self::Inner, Self::Control, Self::Outline, Self::Boundary, Self::Crease];
+
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hidden => "hidden",
+            Self::Inner => "inner",
+            Self::Control => "control",
+            Self::Outline => "outline",
+            Self::Boundary => "boundary",
+            Self::Crease => "crease",
+        }
+    }
+}
+
+/// How a line is interrupted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dash {
+    /// Not.
+    Solid,
+    /// Into short strokes.
+    Dashed,
+    /// Into dots.
+    Dotted,
+}
+
+impl Dash {
+    /// Lengths of strokes and gaps for a line of this width, in hundredths of a point.
+    fn lengths(self, width: f64) -> [i32; 2] {
+        let unit = (width * 100.0).max(40.0);
+        let lengths = match self {
+            Self::Solid => [1.0, 0.0],
+            Self::Dashed => [5.0, 3.5],
+            Self::Dotted => [1.0, 2.0],
+        };
+        lengths.map(|length| (length * unit).round() as i32)
+    }
+}
+
+/// How lines of a class look.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// In points.
+    pub width: f64,
+    /// Red, green, blue.
+    pub color: [u8; 3],
+    /// Whether it is interrupted.
+    pub dash: Dash,
+}
+
+/// How large a figure is, in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Page {
+    /// As wide as this, unless it would be too high.
+    pub width: f64,
+    /// At most as high as this.
+    pub height: Option<f64>,
+}
+
+/// How a figure is drawn, beside the style of all pictures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Its size.
+    pub page: Page,
+    /// The lines of each [`Class`]; `None` leaves them out.
+    pub lines: [Option<Line>; Class::ALL.len()],
+}
+
+impl Default for Settings {
+    /// For a column of text, black, hidden lines left out.
+    fn default() -> Self {
+        let line = |class| match class {
+            Class::Hidden => None,
+            _ => Some(Self::line(class)),
+        };
+        Self { page: Page { width: 120.0, height: Some(160.0) }, lines: Class::ALL.map(line) }
+    }
+}
+
+impl Settings {
+    /// What lines of a class look like, if they are drawn.
+    #[must_use]
+    pub fn line(class: Class) -> Line {
+        let line = |width, color| Line { width, color, dash: Dash::Solid };
+        match class {
+            Class::Hidden => Line { dash: Dash::Dashed, ..line(0.3, [0x77; 3]) },
+            Class::Inner => line(0.35, [0; 3]),
+            Class::Control => line(0.5, [0xc8, 0x1e, 0x5a]),
+            Class::Outline | Class::Boundary => line(0.8, [0; 3]),
+            Class::Crease => line(1.2, [0; 3]),
+        }
+    }
+}
+
+/// What is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// Its triangles, edges and control mesh.
+    pub scene: &'a Scene,
+    /// The mesh that the scene was made of.
+    pub mesh: &'a Mesh,
+}
+
+/// Draws what `camera` sees in a picture of this width over height. `None` if that is nothing.
+///
+/// Of the style it takes whether edges, vertices and the control mesh are drawn, whether faces are filled (else they are
+/// white, and hide what is behind), their colours, and the cut. Edges left out leave those that delimit the surface.
+///
+/// Cost: O(n log n) and what lies before each edge, on all threads.
+///
+/// # Errors
+/// When `stop` is requested.
+pub fn draw(
+    subject: Subject<'_>,
+    camera: &Camera,
+    aspect: f64,
+    style: &Style,
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Option<Drawing>, Stopped> {
+    let Subject { scene, mesh } = subject;
+    let bounds = scene.bounds(&Style { control: false, ..*style });
+    let space = Space::new(camera, aspect, &style.cut, bounds);
+    let surface = Surface::new(scene, mesh, &space, style.control);
+    stop.check()?;
+    let hider = Hider::new(&surface.triangles);
+    let settings = &effective(settings, style);
+    let wanted = |class: Class| settings.lines[class as usize].is_some();
+    let edges: Vec<&Edge> = surface.edges.iter().filter(|edge| wanted(edge.class) || wanted(Class::Hidden)).collect();
+    let hidden: Vec<Vec<Interval>> =
+        edges.par_iter().map(|edge| if stop.check().is_ok() { hider.hidden(edge) } else { Vec::new() }).collect();
+    stop.check()?;
+    let mut sketch = Sketch::default();
+    for (edge, hidden) in edges.iter().zip(&hidden) {
+        let [a, b] = edge.ends.map(DVec3::xy);
+        let piece = |&(low, high): &Interval| [a.lerp(b, low), a.lerp(b, high)];
+        sketch.lines[edge.class as usize].extend(hidden::rest(hidden).iter().map(piece));
+        sketch.lines[Class::Hidden as usize].extend(hidden.iter().map(piece));
+    }
+    let lonely = scene.mesh.lonely_count;
+    let dots: Vec<_> = surface.vertices.iter().filter(|(vertex, _)| style.vertices || *vertex < lonely).collect();
+    let seen = dots.par_iter().filter(|(vertex, at)| !hider.hides_vertex(*vertex, *at));
+    sketch.dots = seen.map(|(_, at)| at.xy()).collect();
+    stop.check()?;
+    Ok(page::lay_out(sketch, settings, f64::from(style.vertex_size) / 2.0))
+}
+
+/// Without the lines that the style leaves out.
+fn effective(settings: &Settings, style: &Style) -> Settings {
+    let mut settings = *settings;
+    if !style.edges {
+        settings.lines[Class::Inner as usize] = None;
+    }
+    settings
+}
+
+/// The drawing in a file.
+#[must_use]
+pub fn write(drawing: &Drawing, format: Format) -> Vec<u8> {
+    match format {
+        Format::Svg => svg::write(drawing).into_bytes(),
+    }
+}
+
+/// Hundredths as a number, as short as can be.
+fn hundredths(x: i32) -> String {
+    let (sign, whole, part) = (if x < 0 { "-" } else { "" }, x.unsigned_abs() / 100, x.unsigned_abs() % 100);
+    let whole = if whole == 0 && part > 0 { String::new() } else { whole.to_string() };
+    match part {
+        0 => format!("{sign}{whole}"),
+        _ if part.is_multiple_of(10) => format!("{sign}{whole}.{}", part / 10),
+        _ => format!("{sign}{whole}.{part:02}"),
+    }
+}
+
+/// Hundredths of a point in millimetres.
+fn millimetres(x: i32) -> String {
+    let text = format!("{:.3}", f64::from(x) / 7200.0 * 25.4);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
