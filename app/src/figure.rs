@@ -18,6 +18,8 @@ mod page;
 mod space;
 mod surface;
 mod svg;
+#[cfg(test)]
+mod tests;
 
 use glam::{DVec3, Vec3Swizzles};
 use rayon::prelude::*;

@@ -119,7 +119,8 @@ pub(super) fn lay_out(sketch: Sketch, settings: &Settings, dot_size: f64) -> Opt
 /// Points for each unit of the picture.
 fn scale(page: Page, size: DVec2, margin: f64) -> f64 {
     const POINTS_PER_MM: f64 = 72.0 / 25.4;
-    let room = |mm: f64| (mm * POINTS_PER_MM - 2.0 * margin).max(1.0);
+    // In whole hundredths, so that nothing is rounded up beyond it.
+    let room = |mm: f64| ((mm * POINTS_PER_MM * 100.0).floor() / 100.0 - 2.0 * margin).max(1.0);
     let across = room(page.width) / size.x;
     let down = page.height.map_or(f64::INFINITY, room) / size.y;
     // What is no wider than a line, or no wider and no higher.

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //!   orthographic   x = x'/h          y = y'/h          z = (z' + d)/h
-//!   perspective    x = x' d/(w h)    y = y' d/(w h)    z = (d − d²/w)/h        w = −z'
+//!   perspective    x = x' d/(w h)    y = y' d/(w h)    z = (d²/w − d)/h        w = −z'
 //! ```
 //!
 //! with view coordinates (x', y', z'), d the distance of the pivot and h half the height of what is seen there. The second
@@ -80,7 +80,7 @@ impl Space {
             return DVec3::new(view.x, view.y, view.z + d) / h;
         }
         let nearness = d / -view.z;
-        DVec3::new(view.x * nearness, view.y * nearness, d - d * nearness) / h
+        DVec3::new(view.x * nearness, view.y * nearness, d * nearness - d) / h
     }
 
     /// The direction to the eye from a point.

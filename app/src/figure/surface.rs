@@ -16,8 +16,6 @@ pub(super) struct Triangle {
     pub vertices: [u32; 3],
     /// The vertices of the whole triangle.
     pub whole: [u32; 3],
-    /// Which triangle of the scene.
-    pub number: u32,
 }
 
 /// What is seen of an edge if nothing is before it.
@@ -70,7 +68,7 @@ impl Surface {
 
     fn add_triangles(&mut self, wholes: &[[u32; 3]], points: &[DVec3], space: &Space) {
         let (mut polygon, mut scratch) = (Vec::new(), Vec::new());
-        for (number, &whole) in (0..).zip(wholes) {
+        for &whole in wholes {
             let [a, b, c] = whole.map(|v| points[v as usize]);
             self.fronts.push((b - a).cross(c - a).dot(space.to_eye(a)) > 0.0);
             polygon.clear();
@@ -79,7 +77,7 @@ impl Surface {
             for i in 2..polygon.len() {
                 let piece = [polygon[0], polygon[i - 1], polygon[i]];
                 let (corners, vertices) = (piece.map(|p| space.project(p.at)), piece.map(|p| p.vertex));
-                self.triangles.push(Triangle { corners, vertices, whole, number });
+                self.triangles.push(Triangle { corners, vertices, whole });
             }
         }
     }

@@ -1,0 +1,323 @@
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use glam::{DVec2, DVec4};
+
+use super::*;
+use crate::viewpoint::{Viewpoint, parse};
+use vv::io::{Format as MeshFormat, ReadOptions, read};
+use vv::mesh::faces::faces;
+
+struct Case {
+    mesh: Mesh,
+    scene: Scene,
+}
+
+impl Case {
+    fn new(obj: &str) -> Self {
+        let (mesh, _) = read(obj.as_bytes(), MeshFormat::Obj, &ReadOptions::default()).unwrap();
+        let faces = faces(&mesh, &Stop::new()).unwrap();
+        let scene = Scene::new(&mesh, &faces, None, &Stop::new()).unwrap();
+        Self { mesh, scene }
+    }
+
+    fn camera(&self, orthographic: bool) -> Camera {
+        let camera = Camera { orthographic, ..Camera::standard(self.scene.bounds(&Style::default()), 1.0) };
+        self.scene.fit(camera, &Style::default(), 1.0)
+    }
+
+    fn draw_from(&self, camera: &Camera, style: &Style, settings: &Settings) -> Option<Drawing> {
+        let subject = Subject { scene: &self.scene, mesh: &self.mesh };
+        draw(subject, camera, 1.0, style, settings, &Stop::new()).unwrap()
+    }
+
+    fn draw(&self, settings: &Settings) -> Drawing {
+        self.draw_from(&self.camera(false), &Style { faces: false, ..Style::default() }, settings).unwrap()
+    }
+
+    /// How many straight lines of each class there are, and where.
+    #[track_caller]
+    fn check(&self, expected: &str) {
+        let mut text = String::new();
+        for layer in self.draw(&with_hidden()).layers {
+            if let Layer::Lines { class, paths, .. } = layer {
+                let count: usize = paths.iter().map(|p| p.points.len() - usize::from(!p.closed)).sum();
+                let _ = write!(text, "{count} {}, ", class.name());
+            }
+        }
+        assert_eq!(text.trim_end_matches(", "), expected);
+    }
+}
+
+fn with_hidden() -> Settings {
+    let mut settings = Settings::default();
+    settings.lines[Class::Hidden as usize] = Some(Settings::line(Class::Hidden));
+    settings
+}
+
+const CUBE: &str = "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n\
+                    f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 4 1 5 8\n";
+
+/// An L, one thick, its faces with six corners seen from the front and the back.
+const L: &str = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\n\
+                 v 0 2 1\nf 6 5 4 3 2 1\nf 7 8 9 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\n\
+                 f 6 1 7 12\n";
+
+#[test]
+fn a_cube_shows_nine_edges_and_hides_three() {
+    Case::new(CUBE).check("3 hidden, 3 inner, 6 outline");
+}
+
+#[test]
+fn a_concave_face_hides_only_what_is_behind_it() {
+    // From the right and above: back, left and lower side are not seen, nor what lies between them.
+    Case::new(L).check("3 hidden, 7 inner, 8 outline");
+    // A wire behind it, half of it behind the notch.
+    let case = Case::new(&format!("{L}v 1.5 1.5 -1\nv 0.5 0.5 -1\nl 13 14\n"));
+    let camera = case.camera(true).from_side(crate::camera::Side::Front, crate::camera::Up::Y);
+    assert_half_hidden(&case, &camera);
+}
+
+#[test]
+fn an_open_mesh_has_a_boundary_and_shows_its_inside() {
+    // Inside, an upper piece of the edge at the back is seen.
+    Case::new(&CUBE.replace("f 3 4 8 7\n", "")).check("3 hidden, 2 inner, 4 outline, 4 boundary");
+}
+
+#[test]
+fn creases_are_lines_of_their_own() {
+    Case::new(&format!("{CUBE}t crease 2/1/0 6 7 2\n")).check("3 hidden, 2 inner, 6 outline, 1 crease");
+}
+
+#[test]
+fn a_line_ends_where_it_pierces_a_face() {
+    // A wire from before a square to behind it.
+    let case = Case::new("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3 4\nl 5 6\n");
+    assert_half_hidden(&case, &case.camera(true));
+}
+
+/// The second half of the wire, the one line that no face has, is hidden.
+#[track_caller]
+fn assert_half_hidden(case: &Case, camera: &Camera) {
+    let space = Space::new(camera, 1.0, &Style::default().cut, case.scene.bounds(&Style::default()));
+    let surface = Surface::new(&case.scene, &case.mesh, &space, false);
+    let hider = Hider::new(&surface.triangles);
+    let is_wire = |edge: &&Edge| !surface.triangles.iter().any(|t| t.whole.contains(&edge.whole[0]));
+    let hidden = hider.hidden(surface.edges.iter().find(is_wire).unwrap());
+    assert!(matches!(hidden[..], [(low, high)] if (low - 0.5).abs() < 1e-6 && high > 0.6), "{hidden:?}");
+}
+
+fn torus(text: &mut String, center: DVec3, upright: bool, first: &mut usize) {
+    const AROUND: usize = 18;
+    const ACROSS: usize = 9;
+    for i in 0..AROUND {
+        for j in 0..ACROSS {
+            let (u, v) = (TAU * i as f64 / AROUND as f64, TAU * j as f64 / ACROSS as f64);
+            let (r, z) = (1.0 + 0.4 * v.cos(), 0.4 * v.sin());
+            let p = DVec3::new(r * u.cos(), r * u.sin(), z);
+            let p = center + if upright { DVec3::new(p.x, -p.z, p.y) } else { p };
+            let _ = writeln!(text, "v {} {} {}", p.x, p.y, p.z);
+        }
+    }
+    for i in 0..AROUND {
+        for j in 0..ACROSS {
+            let at = |i: usize, j: usize| *first + (i % AROUND) * ACROSS + j % ACROSS;
+            let _ = writeln!(text, "f {} {} {} {}", at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    }
+    *first += AROUND * ACROSS;
+}
+
+fn tori(apart: f64) -> String {
+    let (mut text, mut first) = (String::new(), 1);
+    torus(&mut text, DVec3::ZERO, false, &mut first);
+    torus(&mut text, DVec3::new(apart, 0.1, 0.05), true, &mut first);
+    text
+}
+
+/// Quadrilaterals far from flat.
+fn saddles() -> String {
+    const SIDE: usize = 7;
+    let mut text = String::new();
+    for i in 0..SIDE * SIDE {
+        let (x, y) = (i % SIDE, i / SIDE);
+        let z = if (x + y) % 2 == 0 { 0.6 } else { -0.55 } + 0.02 * ((7 * i) % 11) as f64;
+        let _ = writeln!(text, "v {} {z} {}", x as f64 + 0.03 * (i % 5) as f64, -(y as f64));
+    }
+    for y in 1..SIDE {
+        for x in 1..SIDE {
+            let at = |x: usize, y: usize| y * SIDE + x + 1;
+            let _ = writeln!(text, "f {} {} {} {}", at(x - 1, y - 1), at(x, y - 1), at(x, y), at(x - 1, y));
+        }
+    }
+    text
+}
+
+/// Tetrahedra that touch in their corners.
+fn sierpinski(depth: u32) -> String {
+    let corner = [(1.0, 1.0, 1.0), (-1.0, 1.0, -1.0), (1.0, -1.0, -1.0), (-1.0, -1.0, 1.0)].map(DVec3::from);
+    let mut parts = vec![(DVec3::ZERO, 1.0)];
+    for _ in 0..depth {
+        parts = parts.iter().flat_map(|&(c, s)| corner.map(|k| (c + k * (s / 2.0), s / 2.0))).collect();
+    }
+    let mut text = String::new();
+    for (i, (center, size)) in parts.iter().enumerate() {
+        for p in corner.map(|k| *center + k * *size) {
+            let _ = writeln!(text, "v {} {} {}", p.x, p.y, p.z);
+        }
+        for face in [[1, 2, 3], [1, 4, 2], [1, 3, 4], [2, 4, 3]] {
+            let _ = writeln!(text, "f {} {} {}", 4 * i + face[0], 4 * i + face[1], 4 * i + face[2]);
+        }
+    }
+    text
+}
+
+/// Pixels a side.
+const PIXELS: usize = 600;
+
+/// The triangle seen at each pixel, found by depth with the matrices of the window's pictures.
+struct Buffer {
+    corners: Vec<[DVec3; 3]>,
+    seen: Vec<(f64, usize)>,
+}
+
+const NOTHING: usize = usize::MAX;
+
+impl Buffer {
+    fn new(triangles: &[[DVec4; 3]]) -> Self {
+        let corners: Vec<_> = triangles.iter().map(|t| t.map(|c| c.truncate() / c.w)).collect();
+        let mut seen = vec![(f64::NEG_INFINITY, NOTHING); PIXELS * PIXELS];
+        let pixel = |x: f64| (((x + 1.0) / 2.0 * PIXELS as f64).max(0.0) as usize).min(PIXELS - 1);
+        for (number, t) in corners.iter().enumerate() {
+            let (low, high) = (t[0].min(t[1]).min(t[2]), t[0].max(t[1]).max(t[2]));
+            for j in pixel(low.y)..=pixel(high.y) {
+                for i in pixel(low.x)..=pixel(high.x) {
+                    let center = DVec2::new(i as f64 + 0.5, j as f64 + 0.5) * 2.0 / PIXELS as f64 - 1.0;
+                    let Some((inside, depth)) = depth(t, center) else { continue };
+                    let best = &mut seen[j * PIXELS + i];
+                    if inside && depth > best.0 {
+                        *best = (depth, number);
+                    }
+                }
+            }
+        }
+        Self { corners, seen }
+    }
+
+    /// Whether a point is hidden; `None` where that changes from pixel to pixel. `own` says which triangles have the edge.
+    fn hides(&self, at: DVec3, own: impl Fn(usize) -> bool) -> Option<bool> {
+        let pixel = |x: f64| ((x + 1.0) / 2.0 * PIXELS as f64) as usize;
+        let (i, j) = (pixel(at.x), pixel(at.y));
+        let verdict = |i: usize, j: usize| {
+            let (_, number) = self.seen[j * PIXELS + i];
+            number != NOTHING
+                && !own(number)
+                && depth(&self.corners[number], at.truncate()).is_some_and(|(_, depth)| depth > at.z + 1e-9)
+        };
+        let first = verdict(i, j);
+        let around = (i - 1..=i + 1).flat_map(|i| (j - 1..=j + 1).map(move |j| (i, j)));
+        around.into_iter().all(|(i, j)| verdict(i, j) == first).then_some(first)
+    }
+}
+
+/// Whether a triangle covers a place, and its depth there.
+fn depth(t: &[DVec3; 3], p: DVec2) -> Option<(bool, f64)> {
+    let side = |a: DVec3, b: DVec3| (b - a).truncate().perp_dot(p - a.truncate());
+    let weights = [side(t[1], t[2]), side(t[2], t[0]), side(t[0], t[1])];
+    let area: f64 = weights.iter().sum();
+    let inside = weights.iter().all(|w| w * area >= 0.0);
+    (area.abs() > 1e-12).then(|| (inside, (0..3).map(|i| weights[i] / area * t[i].z).sum()))
+}
+
+/// Compares what is seen along all edges with a depth buffer: less than 0.1 % of their length may differ.
+#[track_caller]
+fn check_hidden(obj: &str, orthographic: bool) {
+    let case = Case::new(obj);
+    let camera = case.camera(orthographic);
+    let bounds = case.scene.bounds(&Style::default());
+    let space = Space::new(&camera, 1.0, &Style::default().cut, bounds);
+    let surface = Surface::new(&case.scene, &case.mesh, &space, false);
+    let hider = Hider::new(&surface.triangles);
+
+    let clip_from_world = camera.clip_from_view_within(1.0, bounds) * camera.view_from_world();
+    let place = |v: u32| case.scene.mesh.vertex(v).map(|v| case.mesh.position(v)).unwrap();
+    let clip = |v: u32| clip_from_world * place(v).extend(1.0);
+    let buffer = Buffer::new(&surface.triangles.iter().map(|t| t.whole.map(clip)).collect::<Vec<_>>());
+
+    let (mut compared, mut skipped, mut wrong) = (0.0, 0.0, 0.0);
+    for edge in &surface.edges {
+        let hidden = hider.hidden(edge);
+        let own = |number: usize| edge.whole.iter().all(|v| surface.triangles[number].whole.contains(v));
+        let [a, b] = edge.whole.map(clip);
+        let length = edge.ends[0].truncate().distance(edge.ends[1].truncate());
+        let samples = (length * PIXELS as f64 / 2.0).ceil();
+        for i in 0..samples as usize {
+            let t = (i as f64 + 0.5) / samples;
+            // Places between the ends in the picture are not in proportion to those in the world.
+            let s = t * a.w / (t * a.w + (1.0 - t) * b.w);
+            let p = a.lerp(b, s);
+            let p = p.truncate() / p.w;
+            let here = edge.ends[0].lerp(edge.ends[1], t);
+            assert!(p.truncate().distance(here.truncate()) < 1e-9, "the picture is another one");
+            let is_hidden = hidden.iter().any(|&(low, high)| (low..high).contains(&t));
+            let share = length / samples;
+            match buffer.hides(p, own) {
+                None => skipped += share,
+                Some(expected) => {
+                    compared += share;
+                    wrong += if expected == is_hidden { 0.0 } else { share };
+                }
+            }
+        }
+    }
+    assert!(skipped < 0.4 * compared, "{skipped} of {compared} were too near to other edges");
+    assert!(wrong <= 1e-3 * compared, "{wrong} of {compared} differ");
+}
+
+#[test]
+fn hidden_lines_are_those_that_a_depth_buffer_hides() {
+    for orthographic in [false, true] {
+        check_hidden(CUBE, orthographic);
+        check_hidden(L, orthographic);
+        check_hidden(&tori(1.0), orthographic);
+        check_hidden(&tori(0.55), orthographic); // they pierce each other
+        check_hidden(&saddles(), orthographic);
+        check_hidden(&sierpinski(3), orthographic);
+    }
+}
+
+#[test]
+fn a_figure_is_the_same_each_time() {
+    let case = Case::new(&tori(0.55));
+    assert_eq!(case.draw(&with_hidden()), case.draw(&with_hidden()));
+}
+
+#[test]
+fn a_figure_is_as_wide_as_its_page_and_no_higher() {
+    let case = Case::new(L);
+    let size = |width, height| {
+        let page = Page { width, height };
+        let At { x, y } = case.draw(&Settings { page, ..Settings::default() }).size;
+        [x, y].map(|x| (f64::from(x) / 7200.0 * 25.4 * 10.0).round() / 10.0)
+    };
+    let [width, height] = size(85.0, None);
+    assert_eq!(width, 85.0);
+    assert!(height > 40.0);
+    assert_eq!(size(85.0, Some(30.0)), [(85.0 * 30.0 / height * 10.0_f64).round() / 10.0, 30.0]);
+}
+
+#[test]
+fn what_lies_outside_the_picture_is_cut_off() {
+    let case = Case::new(CUBE);
+    let Ok(Viewpoint::At(camera)) = parse("eye 0 0 5 target 0.9 0 1 orthographic 1") else { panic!() };
+    assert!(case.draw_from(&camera, &Style::default(), &Settings::default()).is_some());
+    let Ok(Viewpoint::At(away)) = parse("eye 0 0 5 target 0 0 9 perspective 30") else { panic!() };
+    assert_eq!(case.draw_from(&away, &Style::default(), &Settings::default()), None);
+    // From inside, most of it is behind the eye.
+    let Ok(Viewpoint::At(inside)) = parse("eye 0 0 0 target 0.3 0 -0.5 perspective 100") else { panic!() };
+    let drawing = case.draw_from(&inside, &Style::default(), &Settings::default()).unwrap();
+    let in_page = |p: &At| (0..=drawing.size.x).contains(&p.x) && (0..=drawing.size.y).contains(&p.y);
+    let mut paths =
+        drawing.layers.iter().flat_map(|l| if let Layer::Lines { paths, .. } = l { &paths[..] } else { &[] });
+    assert!(paths.all(|path| path.points.iter().all(in_page)));
+}
