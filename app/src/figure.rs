@@ -260,6 +260,6 @@ fn hundredths(x: i32) -> String {
 
 /// Hundredths of a point in millimetres.
 fn millimetres(x: i32) -> String {
-    let text = format!("{:.3}", f64::from(x) / 7200.0 * 25.4);
+    let text = format!("{:.2}", f64::from(x) / 7200.0 * 25.4);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

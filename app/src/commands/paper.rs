@@ -10,13 +10,13 @@ const MOST: f64 = 5000.0;
 /// Reads a width, perhaps with a height.
 pub fn page(text: &str) -> Result<Page, String> {
     let wrong = || "a page is a width in millimetres such as 85mm, or width and height such as 85x60mm".to_owned();
-    let text = text.strip_suffix("mm").unwrap_or(text).trim();
-    let length = |text: &str| text.trim().parse().ok().filter(|x| (1.0..=MOST).contains(x));
+    let number = |text: &str| text.trim().trim_end_matches("mm").trim_end().parse().ok();
+    let length = |text: &str| number(text).filter(|x| (1.0..=MOST).contains(x));
     let (width, height) = match text.split_once(['x', 'X', '×']) {
-        Some((width, height)) => (width, Some(length(height.trim_start_matches("mm")).ok_or_else(wrong)?)),
+        Some((width, height)) => (width, Some(length(height).ok_or_else(wrong)?)),
         None => (text, None),
     };
-    Ok(Page { width: length(width.trim_end_matches("mm")).ok_or_else(wrong)?, height })
+    Ok(Page { width: length(width).ok_or_else(wrong)?, height })
 }
 
 /// Reads a class of lines and how they look.
