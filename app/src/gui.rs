@@ -282,6 +282,7 @@ impl App {
                 self.asked = 0;
                 if let Some(id) = self.focus {
                     ctx.memory_mut(|m| m.request_focus(id));
+                    ctx.request_repaint(); // egui forgets in the next frame whom there is no more
                 }
             }
             (false, _) => self.focus = ctx.memory(|m| m.focused()),
