@@ -19,6 +19,7 @@ pub mod project;
 pub mod render;
 pub mod scene;
 pub mod session;
+pub mod sheet;
 pub mod store;
 pub mod trace;
 pub mod viewpoint;

@@ -210,6 +210,20 @@ pub struct Sphere {
     pub radius: f64,
 }
 
+impl Sphere {
+    /// One that holds all of these.
+    #[must_use]
+    pub fn around(spheres: impl Iterator<Item = Self> + Clone) -> Self {
+        let corners = |s: Self| [s.center - DVec3::splat(s.radius), s.center + DVec3::splat(s.radius)];
+        let extent = Extent::of(&spheres.clone().flat_map(corners).collect::<Vec<_>>());
+        if extent.low.x > extent.high.x {
+            return Self { center: DVec3::ZERO, radius: 0.0 };
+        }
+        let center = (extent.low + extent.high) / 2.0;
+        Self { center, radius: spheres.map(|s| s.center.distance(center) + s.radius).fold(0.0, f64::max) }
+    }
+}
+
 /// Everything to draw, in arrays ready for the GPU. Immutable; what [`Style`] switches on and off is decided when
 /// drawing, so a change of style needs no new scene.
 #[derive(Debug, Clone)]
@@ -337,6 +351,19 @@ impl Scene {
         }
         let corners = parts.iter().flat_map(|part| &part.corners[..part.vertex_count as usize]);
         camera.fit_points(corners.map(|corner| world(corner.position.into())), bounds, aspect)
+    }
+
+    /// `camera` looking from the same side at all that `style` shows of all `scenes`, as close as it gets. Cost: linear in
+    /// the vertices.
+    #[must_use]
+    pub fn fit_all(scenes: &[&Self], camera: Camera, style: &Style, aspect: f64) -> Camera {
+        let bounds = Sphere::around(scenes.iter().map(|scene| scene.bounds(style)));
+        let points = scenes.iter().flat_map(|scene| {
+            let parts = &[&scene.mesh, &scene.control][..if style.control { 2 } else { 1 }];
+            let corners = parts.iter().flat_map(|part| &part.corners[..part.vertex_count as usize]).collect::<Vec<_>>();
+            corners.into_iter().map(|corner| scene.to_world(corner.position.into()))
+        });
+        camera.fit_points(points, bounds, aspect)
     }
 
     /// World position of a point of the scene.

@@ -172,6 +172,11 @@ impl Target {
         Self { path, ..*self }
     }
 
+    /// Whether it is a picture in pixels.
+    pub fn is_picture(&self) -> bool {
+        self.kind == Kind::Picture
+    }
+
     /// Where.
     pub fn path(&self) -> &Path {
         &self.path

@@ -6,8 +6,8 @@ use app::annotate::field::NoField;
 use app::annotate::{ArrowSet, Subject, Tint};
 use app::camera::Camera;
 use app::figure::{self, Drawing};
-use app::render::{self, Dressing, RenderError};
-use app::scene::{Scene, Style};
+use app::render::{self, Dressing, Headless, RenderError};
+use app::scene::{Scene, Sphere, Style};
 use app::viewpoint::Viewpoint;
 use image::{ImageFormat, RgbaImage};
 use vv::stop::Stop;
@@ -53,13 +53,63 @@ pub struct Shot<'a> {
     pub look: &'a Look,
 }
 
-/// All that a picture is made of.
-struct Staged {
+impl Shot<'_> {
+    /// With the axis up that the viewpoint says.
+    fn style(&self) -> Style {
+        let up = match self.viewpoint {
+            Some(Viewpoint::From { up, .. }) => up,
+            _ => self.look.style.up,
+        };
+        Style { up, ..self.look.style }
+    }
+}
+
+/// A mesh ready to be drawn.
+#[derive(Debug)]
+pub struct Exhibit {
     scene: Scene,
     tint: Option<Tint>,
     arrows: ArrowSet,
-    camera: Camera,
-    style: Style,
+}
+
+impl Exhibit {
+    /// Of a mesh.
+    ///
+    /// # Errors
+    /// [`Exit::Usage`] if the mesh lacks what it is to be coloured by; reported.
+    pub fn new(result: look::Result<'_>, look: &Look, reporter: &Reporter) -> Result<Self, Exit> {
+        let look::Result { mesh, faces, past } = result;
+        let annotations = &look.annotations;
+        let never = Stop::new();
+        let Ok(scene) = Scene::new(mesh, faces, None, &never) else {
+            return Err(Exit::Budget); // not reached: nobody stops it
+        };
+        let subject = Subject {
+            mesh,
+            faces,
+            scene: &scene,
+            generation: past.generation,
+            before: past.before.as_ref(),
+            lineage: &past.lineage,
+            tint: None,
+        };
+        let tint = match Tint::new(&subject, annotations, &never) {
+            Ok(tint) => tint,
+            Err(NoField::Stopped(_)) => return Err(Exit::Budget), // not reached either
+            Err(NoField::Missing(why)) => {
+                let diagnostic = error(format!("the picture cannot be coloured by `{}`", annotations.color_by));
+                return fail(reporter, Exit::Usage, diagnostic.evidence(why));
+            }
+        };
+        let arrows = match ArrowSet::new(&subject, &annotations.arrows, &never) {
+            Ok(arrows) => arrows,
+            Err(NoField::Stopped(_)) => return Err(Exit::Budget), // nor this
+            Err(NoField::Missing(why)) => {
+                return fail(reporter, Exit::Usage, error("the picture cannot have these arrows").evidence(why));
+            }
+        };
+        Ok(Self { scene, tint, arrows })
+    }
 }
 
 /// A picture of a mesh.
@@ -67,17 +117,9 @@ struct Staged {
 /// # Errors
 /// [`Exit::NoRenderer`], or [`Exit::Usage`] if the mesh lacks what it is to be coloured by; reported.
 pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<RgbaImage, Exit> {
-    let Staged { scene, tint, arrows, camera, style } = stage(result, shot, reporter)?;
-    let size = render::Size::new(shot.size.0, shot.size.1);
-    let dressing = Dressing { tint: tint.as_ref(), arrows: Some((&arrows, shot.look.annotations.arrow_length)) };
-    render::render_image(&scene, dressing, &camera, &style, size).or_else(|problem| {
-        let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
-        let diagnostic = match problem {
-            RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
-            RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
-        };
-        fail(reporter, Exit::NoRenderer, diagnostic)
-    })
+    let exhibit = Exhibit::new(result, shot.look, reporter)?;
+    let camera = camera(&[&exhibit], shot);
+    draw(&[(&exhibit, camera)], shot, reporter).map(|mut pictures| pictures.pop().unwrap_or_default())
 }
 
 /// A figure of a mesh.
@@ -85,9 +127,10 @@ pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) ->
 /// # Errors
 /// [`Exit::Usage`] if the mesh lacks what it is to be coloured by, or nothing of it is seen; reported.
 pub fn figure(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<Drawing, Exit> {
-    let Staged { scene, camera, style, .. } = stage(result, shot, reporter)?;
+    let exhibit = Exhibit::new(result, shot.look, reporter)?;
+    let (camera, style) = (camera(&[&exhibit], shot), shot.style());
     let aspect = render::Size::new(shot.size.0, shot.size.1).aspect();
-    let subject = figure::Subject { scene: &scene, mesh: result.mesh };
+    let subject = figure::Subject { scene: &exhibit.scene, mesh: result.mesh };
     let figure = &shot.look.figure;
     let Ok(drawing) = figure::draw(subject, &camera, aspect, &style, figure, &Stop::new()) else {
         return Err(Exit::Budget); // not reached: nobody stops it
@@ -98,53 +141,48 @@ pub fn figure(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> 
     }
 }
 
-fn stage(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<Staged, Exit> {
-    let look::Result { mesh, faces, past } = result;
-    let Look { style, annotations, .. } = shot.look;
-    let up = match shot.viewpoint {
-        Some(Viewpoint::From { up, .. }) => up,
-        _ => style.up,
+/// From where all of these are seen, whole.
+pub fn camera(exhibits: &[&Exhibit], shot: Shot<'_>) -> Camera {
+    let (style, aspect) = (shot.style(), render::Size::new(shot.size.0, shot.size.1).aspect());
+    let scenes: Vec<&Scene> = exhibits.iter().map(|exhibit| &exhibit.scene).collect();
+    let fit = |camera| Scene::fit_all(&scenes, camera, &style, aspect);
+    let bounds = Sphere::around(scenes.iter().map(|scene| scene.bounds(&style)));
+    let standard = match scenes.as_slice() {
+        [only] => only.standard_view(&style, aspect),
+        _ => fit(Camera::standard(bounds, aspect)),
     };
-    let style = Style { up, ..*style };
-    let size = render::Size::new(shot.size.0, shot.size.1);
-    let never = Stop::new();
-    let Ok(scene) = Scene::new(mesh, faces, None, &never) else {
-        return Err(Exit::Budget); // not reached: nobody stops it
-    };
-    let subject = Subject {
-        mesh,
-        faces,
-        scene: &scene,
-        generation: past.generation,
-        before: past.before.as_ref(),
-        lineage: &past.lineage,
-        tint: None,
-    };
-    let tint = match Tint::new(&subject, annotations, &never) {
-        Ok(tint) => tint,
-        Err(NoField::Stopped(_)) => return Err(Exit::Budget), // not reached either
-        Err(NoField::Missing(why)) => {
-            let diagnostic = error(format!("the picture cannot be coloured by `{}`", annotations.color_by));
-            return fail(reporter, Exit::Usage, diagnostic.evidence(why));
-        }
-    };
-    let arrows = match ArrowSet::new(&subject, &annotations.arrows, &never) {
-        Ok(arrows) => arrows,
-        Err(NoField::Stopped(_)) => return Err(Exit::Budget), // nor this
-        Err(NoField::Missing(why)) => {
-            return fail(reporter, Exit::Usage, error("the picture cannot have these arrows").evidence(why));
-        }
-    };
-    let standard = scene.standard_view(&style, size.aspect());
-    let camera = match shot.viewpoint {
+    match shot.viewpoint {
         None => standard,
         Some(Viewpoint::At(camera)) => camera,
         Some(Viewpoint::From { side, orthographic, up }) => {
-            let camera = Camera { orthographic, ..standard.from_side(side, up) };
-            scene.fit(camera, &style, size.aspect())
+            fit(Camera { orthographic, ..standard.from_side(side, up) })
         }
-    };
-    Ok(Staged { scene, tint, arrows, camera, style })
+    }
+}
+
+/// Pictures of one size, one after the other.
+///
+/// # Errors
+/// [`Exit::NoRenderer`], reported.
+pub fn draw(exhibits: &[(&Exhibit, Camera)], shot: Shot<'_>, reporter: &Reporter) -> Result<Vec<RgbaImage>, Exit> {
+    let size = render::Size::new(shot.size.0, shot.size.1);
+    let style = shot.style();
+    let drawn = Headless::new(4).and_then(|headless| {
+        let draw = |(exhibit, camera): &(&Exhibit, Camera)| {
+            let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
+            let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
+            headless.dressed_image(&exhibit.scene, dressing, camera, &style, size)
+        };
+        exhibits.iter().map(draw).collect()
+    });
+    drawn.or_else(|problem| {
+        let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
+        let diagnostic = match problem {
+            RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
+            RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
+        };
+        fail(reporter, Exit::NoRenderer, diagnostic)
+    })
 }
 
 /// The picture in PNG format.

@@ -4,6 +4,7 @@ mod cases;
 mod names;
 pub(super) mod parameters;
 mod plan;
+mod sheets;
 mod steps;
 mod summary;
 
@@ -26,12 +27,13 @@ use vv::stop::Stop;
 
 use super::look::{self, LookArguments, Past};
 use super::output::{DEFAULT_SIZE, OutputArguments};
-use super::picture::{self, Shot};
+use super::picture::{self, Exhibit, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
 use cases::Case;
 use plan::{Given, Plan};
+use sheets::Exhibits;
 use steps::State;
 use summary::{Line, Summary, Timings};
 
@@ -44,7 +46,8 @@ Examples:
   vv run loop.vv -i bunny.obj -o new.png --reference old.png      a picture test
   vv run loop.vv -i bunny.obj -o a.png --color-by gauss --style smooth,no-edges
   vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n}.obj'       every generation of both
-  vv run terrain.vv -D roughness=0:1:5 -o 'terrain_{roughness}.obj'
+  vv run terrain.vv -D roughness=0.3:0.8:5 -o 'terrain_{roughness}.obj' -o all.png
+  vv run loop.vv -i bunny.obj --generations 0-3 -o steps.png --size 1600x450   side by side
 
 ";
 
@@ -66,10 +69,11 @@ pub struct Arguments {
     /// The rule to apply. Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
     rule: Option<String>,
-    /// The generations that `{n}` in the names of outputs stands for, such as 0,2,4 or 0-3. Default: all.
+    /// The generations that `{n}` in the names of outputs stands for, such as 0,2,4 or 0-3; pictures without `{n}` show
+    /// them side by side. Default: all, and the last one.
     #[arg(long, value_name = "LIST", value_parser = plan::generations)]
     generations: Option<plan::Generations>,
-    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value.
+    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value; pictures without `{w}` show them side by side.
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
     definitions: Vec<(String, String)>,
     #[command(flatten)]
@@ -174,6 +178,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
         began,
         reporter,
     };
+    plan.sheets().iter().try_for_each(|sheet| run.layout(sheet).map(drop))?;
     run.all(&timings)
 }
 
@@ -209,6 +214,7 @@ struct Made {
     summaries: String,
     faces: Faces,
     picture: Option<RgbaImage>,
+    exhibits: Exhibits,
 }
 
 impl Run<'_> {
@@ -216,6 +222,7 @@ impl Run<'_> {
     /// or nothing can be drawn, the others would fare no better.
     fn all(&self, timings: &Timings) -> Result<(), Exit> {
         let mut result = Ok(());
+        let mut exhibits = Exhibits::new();
         let mut loaded: Option<(usize, Result<Loaded, Exit>)> = None;
         let to_stderr = self.arguments.output.to_stdout() || self.arguments.summary.is_some();
         let mut printer = Printer::new(to_stderr, self.reporter);
@@ -224,7 +231,7 @@ impl Run<'_> {
                 loaded = Some((case.input, self.load(case.input)));
             }
             let ended = match &loaded {
-                Some((_, Ok(loaded))) => self.one(case, loaded, timings.clone(), &mut printer),
+                Some((_, Ok(loaded))) => self.one(case, loaded, timings.clone(), &mut printer, &mut exhibits),
                 Some((_, Err(exit))) => Err(*exit),
                 None => Ok(()),
             };
@@ -232,6 +239,9 @@ impl Run<'_> {
                 return ended;
             }
             result = result.and(ended);
+        }
+        if self.plan.cases().len() > 1 {
+            result = result.and(self.sheets(&exhibits).and_then(|sheets| output::commit(sheets, self.reporter)));
         }
         result
     }
@@ -250,7 +260,14 @@ impl Run<'_> {
     }
 
     /// Runs one and writes what is made of it, all or nothing.
-    fn one(&self, case: &Case, loaded: &Loaded, timings: Timings, printer: &mut Printer) -> Result<(), Exit> {
+    fn one(
+        &self,
+        case: &Case,
+        loaded: &Loaded,
+        timings: Timings,
+        printer: &mut Printer,
+        exhibits: &mut Exhibits,
+    ) -> Result<(), Exit> {
         let mut made = Made::default();
         let state = State {
             mesh: loaded.mesh.clone(),
@@ -259,10 +276,14 @@ impl Run<'_> {
             timings: Timings { load_s: loaded.load_s, ..timings },
         };
         let state = self.generations(case, state, printer, &mut |state| self.show(case, state, &mut made))?;
+        if self.plan.cases().len() == 1 {
+            made.prepared.extend(self.sheets(&made.exhibits)?);
+        }
         if !made.summaries.is_empty() {
             write_stdout(made.summaries.as_bytes(), self.reporter).inspect_err(|_| printer.close())?;
         }
         output::commit(made.prepared, self.reporter)?;
+        exhibits.append(&mut made.exhibits);
         match &self.reference {
             Some(reference) => {
                 let result = (&state.mesh, &made.faces);
@@ -278,10 +299,11 @@ impl Run<'_> {
         let targets = self.plan.targets(case, past.generation);
         let summarised = self.arguments.summary.is_some() && self.plan.is_shown(past.generation);
         let reference = self.reference.as_ref().filter(|_| self.plan.is_last(past.generation));
-        if targets.is_empty() && !summarised && reference.is_none() {
+        let on_sheet = self.plan.is_on_sheet(case, past.generation);
+        if targets.is_empty() && !on_sheet && !summarised && reference.is_none() {
             return Ok(());
         }
-        if mesh.set.is_empty() && !targets.is_empty() {
+        if mesh.set.is_empty() && (on_sheet || !targets.is_empty()) {
             let diagnostic = error("the mesh has no vertices left, so there is nothing to write");
             return fail(self.reporter, Exit::Program, diagnostic);
         }
@@ -295,6 +317,10 @@ impl Run<'_> {
         timings.export_s = outputs.export_s;
         timings.render_s = outputs.render_s;
         made.prepared.extend(outputs.prepared);
+        if on_sheet {
+            let exhibit = Exhibit::new(result, self.shot.look, self.reporter)?;
+            made.exhibits.insert((case.index, past.generation), exhibit);
+        }
         made.picture = outputs.picture;
         if summarised {
             let statistics = self.in_time("counting", |stop| statistics(mesh, &made.faces, stop))?;

@@ -16,6 +16,8 @@ const MOST: usize = 1000;
 /// One run.
 #[derive(Debug, Clone)]
 pub struct Case {
+    /// Its number.
+    pub index: usize,
     /// Which of the inputs; 0 if there is none.
     pub input: usize,
     /// The values of parameters as text, in the order of the command line.
@@ -62,7 +64,7 @@ pub fn cases(program: &Program, inputs: usize, definitions: &[(String, String)])
     for input in 0..inputs {
         for values in &combinations {
             let params = parameters::values(program, values)?;
-            all.push(Case { input, values: values.clone(), params });
+            all.push(Case { index: all.len(), input, values: values.clone(), params });
         }
     }
     values.retain(|(_, values)| values.len() > 1);

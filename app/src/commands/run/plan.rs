@@ -68,6 +68,32 @@ pub struct Plan {
     generations: Option<Vec<u64>>,
     /// Whether anything asks for more than the last generation.
     by_generation: bool,
+    /// Pictures of several runs or generations.
+    sheets: Vec<Sheet>,
+}
+
+/// A picture of several runs or generations.
+#[derive(Debug, Clone)]
+pub struct Sheet {
+    /// What is written.
+    pub target: Target,
+    /// What it shows, row by row.
+    pub tiles: Vec<Tile>,
+    /// In how many columns, if there is reason for a number.
+    pub columns: Option<usize>,
+}
+
+/// One of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tile {
+    /// The number of the run.
+    pub case: usize,
+    /// And of its input: what comes of one mesh is seen from one place.
+    pub input: usize,
+    /// The generation.
+    pub generation: u64,
+    /// What distinguishes it from the others.
+    pub label: String,
 }
 
 impl Plan {
@@ -89,7 +115,7 @@ impl Plan {
             return Err(Box::new(error(message).hint(format!("apply the rule more often: `-n {last}`"))));
         }
         let by_generation = given.generations.is_some() || named.iter().any(|(name, _)| name.has(GENERATION));
-        let plan = Self {
+        let mut plan = Self {
             program: given.program.to_owned(),
             inputs: given.inputs.to_owned(),
             cases,
@@ -97,7 +123,11 @@ impl Plan {
             steps,
             generations: given.generations.map(|generations| generations.0.clone()),
             by_generation,
+            sheets: Vec::new(),
         };
+        plan.check_size()?;
+        plan.check_places()?;
+        plan.sheets = plan.outputs.iter().flat_map(|(name, target)| plan.sheets_of(name, target)).collect();
         plan.check_names()?;
         Ok(plan)
     }
@@ -138,20 +168,77 @@ impl Plan {
         (!parts.is_empty()).then(|| parts.join(", "))
     }
 
-    /// What is written of a generation of a run.
+    /// What is written of a generation of a run alone.
     pub fn targets(&self, case: &Case, generation: u64) -> Vec<Target> {
-        let due = |name: &Name| match name.has(GENERATION) {
-            true => self.is_shown(generation),
-            false => self.is_last(generation),
-        };
         let at = |(name, target): &(Name, Target)| target.at(self.path(name, case, generation));
-        self.outputs.iter().filter(|(name, _)| due(name)).map(at).collect()
+        let alone = |target: &Target| !self.sheets.iter().any(|sheet| sheet.target == *target);
+        self.outputs
+            .iter()
+            .filter(|(name, target)| self.is_due(name, target, generation))
+            .map(at)
+            .filter(alone)
+            .collect()
+    }
+
+    /// Pictures of several runs or generations.
+    pub fn sheets(&self) -> &[Sheet] {
+        &self.sheets
+    }
+
+    /// Whether a generation of a run is on one of them.
+    pub fn is_on_sheet(&self, case: &Case, generation: u64) -> bool {
+        let shows = |tile: &Tile| tile.case == case.index && tile.generation == generation;
+        self.sheets.iter().any(|sheet| sheet.tiles.iter().any(shows))
+    }
+
+    /// Whether a generation is written: each one that is asked for if the name has a place for it, or if pictures of
+    /// them stand side by side; else the last one.
+    fn is_due(&self, name: &Name, target: &Target, generation: u64) -> bool {
+        let side_by_side = target.is_picture() && self.generations.is_some();
+        if name.has(GENERATION) || side_by_side { self.is_shown(generation) } else { self.is_last(generation) }
+    }
+
+    /// The pictures of an output that are of several; where each has a name of its own there are none.
+    fn sheets_of(&self, name: &Name, target: &Target) -> Vec<Sheet> {
+        if !target.is_picture() {
+            return Vec::new();
+        }
+        let mut by_path: BTreeMap<PathBuf, Vec<Tile>> = BTreeMap::new();
+        for case in &self.cases.all {
+            for generation in self.in_order().filter(|g| self.is_due(name, target, *g)) {
+                let label = self.tile_label(name, case, generation);
+                let tile = Tile { case: case.index, input: case.input, generation, label };
+                by_path.entry(self.path(name, case, generation)).or_default().push(tile);
+            }
+        }
+        let columns = self.columns(name);
+        let several = by_path.into_iter().filter(|(_, tiles)| tiles.len() > 1);
+        several.map(|(path, tiles)| Sheet { target: target.at(path), tiles, columns }).collect()
+    }
+
+    /// Of two things that differ on a sheet the second one goes across.
+    fn columns(&self, name: &Name) -> Option<usize> {
+        let swept = self.cases.sweeps.iter().filter(|(parameter, _)| !name.has(parameter)).map(|(_, all)| all.len());
+        let inputs = Some(self.inputs.len()).filter(|count| *count > 1 && !name.has(INPUT));
+        let generations = self.generations.as_ref().map(Vec::len).filter(|count| *count > 1 && !name.has(GENERATION));
+        let different: Vec<usize> = inputs.into_iter().chain(swept).chain(generations).collect();
+        different.last().copied().filter(|_| different.len() > 1)
+    }
+
+    fn tile_label(&self, name: &Name, case: &Case, generation: u64) -> String {
+        let input = (self.inputs.len() > 1 && !name.has(INPUT)).then(|| case.name(&self.inputs, &self.program));
+        let swept = self.cases.sweeps.iter().filter(|(parameter, _)| !name.has(parameter));
+        let values = swept.filter_map(|(parameter, _)| Some(format!("{parameter} = {}", case.value(parameter)?)));
+        let many = self.generations.as_ref().is_some_and(|all| all.len() > 1) && !name.has(GENERATION);
+        let generation = many.then(|| format!("generation {generation}"));
+        input.into_iter().chain(values).chain(generation).collect::<Vec<_>>().join(", ")
     }
 
     /// Everything that is written.
     pub fn all_targets(&self) -> Vec<Target> {
         let of_case = |case| self.shown().flat_map(move |generation| self.targets(case, generation));
-        self.cases.all.iter().flat_map(of_case).collect()
+        let sheets = self.sheets.iter().map(|sheet| sheet.target.clone());
+        self.cases.all.iter().flat_map(of_case).chain(sheets).collect()
     }
 
     fn path(&self, name: &Name, case: &Case, generation: u64) -> PathBuf {
@@ -172,8 +259,13 @@ impl Plan {
         listed.iter().copied().filter(|generation| *generation != self.steps).chain(all).chain([self.steps])
     }
 
-    /// Places are known, and every file has a name of its own.
-    fn check_names(&self) -> Result<(), Box<Diagnostic>> {
+    /// The same in their order.
+    fn in_order(&self) -> impl Iterator<Item = u64> {
+        self.shown().collect::<std::collections::BTreeSet<_>>().into_iter()
+    }
+
+    /// Places are known.
+    fn check_places(&self) -> Result<(), Box<Diagnostic>> {
         let parameters: Vec<&str> =
             self.cases.all.first().map_or(vec![], |case| case.values.iter().map(|(name, _)| name.as_str()).collect());
         for (name, _) in &self.outputs {
@@ -188,11 +280,21 @@ impl Plan {
                 }));
             }
         }
+        Ok(())
+    }
+
+    /// There are not too many files.
+    fn check_size(&self) -> Result<(), Box<Diagnostic>> {
         let generations = if self.by_generation { self.steps.saturating_add(1) } else { 1 };
         let files = generations.saturating_mul((self.cases.all.len() * self.outputs.len().max(1)) as u64);
         if files > MOST_FILES {
             return Err(Box::new(error(format!("these would be more than {MOST_FILES} files"))));
         }
+        Ok(())
+    }
+
+    /// Every file has a name of its own.
+    fn check_names(&self) -> Result<(), Box<Diagnostic>> {
         let mut taken: BTreeMap<PathBuf, ()> = BTreeMap::new();
         for target in self.all_targets() {
             if taken.insert(target.path().to_owned(), ()).is_some() {

@@ -110,3 +110,70 @@ fn a_closed_pipe_ends_all_runs() {
     assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(3), ""));
     assert_eq!(folder.names(), before);
 }
+
+/// Where the pictures begin in a row of pixels of a sheet: what is not the colour of the paper.
+fn begins(sheet: &image::RgbaImage, paper: [u8; 4], y: u32) -> Vec<u32> {
+    let on_paper = |x: u32| sheet.get_pixel(x, y).0 == paper;
+    (1..sheet.width()).filter(|&x| on_paper(x - 1) && !on_paper(x)).collect()
+}
+
+/// How many there are.
+fn across(path: &Path, paper: [u8; 4], y: u32) -> usize {
+    begins(&image::open(path).unwrap().into_rgba8(), paper, y).len()
+}
+
+const WHITE: [u8; 4] = [255; 4];
+
+#[test]
+fn a_picture_of_a_sweep_shows_its_values_side_by_side() {
+    let folder = Folder::with(&[]);
+    folder.check("run move.vv -i octahedron.obj -D far=0:1:3 -o a.png --size 480x160", 0, "");
+    assert_eq!(image::image_dimensions(folder.path("a.png")).unwrap(), (480, 160));
+    assert_eq!(across(&folder.path("a.png"), WHITE, 60), 3);
+    let grid = "run move.vv -i octahedron.obj -D far=0,1 -D times=1,2,3 -o b.png --size 480x320 --style dark";
+    folder.check(grid, 0, "");
+    assert_eq!(across(&folder.path("b.png"), [0x10, 0x12, 0x15, 0xff], 70), 3);
+    folder.check("run move.vv -i octahedron.obj -D far=0:1:3 -o c_{far}.png --size 64x48", 0, "");
+    assert_eq!(folder.names().iter().filter(|name| name.starts_with("c_")).count(), 3);
+    assert_eq!(image::image_dimensions(folder.path("c_0.5.png")).unwrap(), (64, 48));
+}
+
+#[test]
+fn generations_stand_side_by_side_seen_from_the_same_place() {
+    let folder = Folder::with(&[]);
+    let sheet = |arguments: &str, name: &str| {
+        let arguments = format!("run move.vv -i octahedron.obj {arguments} -o {name} --size 320x160 --style no-edges");
+        folder.check(&arguments, 0, "");
+        image::open(folder.path(name)).unwrap().into_rgba8()
+    };
+    let halves = |sheet: &image::RgbaImage| {
+        let half = |x| image::imageops::crop_imm(sheet, x, 10, 130, 90).to_image();
+        let begins = begins(sheet, WHITE, 60);
+        assert_eq!(begins.len(), 2);
+        (half(begins[0]), half(begins[1]))
+    };
+    let (first, second) = halves(&sheet("--generations 0,1 --rule still", "still.png"));
+    let differing = first.pixels().zip(second.pixels()).filter(|(a, b)| a != b).count();
+    let (first, second) = halves(&sheet("--generations 0,1 -D far=3", "far.png"));
+    let moved = first.pixels().zip(second.pixels()).filter(|(a, b)| a != b).count();
+    assert!(moved > 200 && differing < 20, "{moved} {differing}");
+}
+
+#[test]
+fn a_run_that_fails_leaves_its_place_on_the_sheet_empty() {
+    let text =
+        "param int k = 0;\nvoid step(mesh& S) { forall v in S { vertex x = null; if (k == 1) x$pos = v$pos; } }\n";
+    let folder = Folder::with(&[("some.vv", text)]);
+    let ended = folder.run("run some.vv -i octahedron.obj -D k=0,1,2 -o a.png --size 480x160");
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    assert!(ended.stderr.contains("this was in step 1 of 1 of `step` with k = 1"), "{}", ended.stderr);
+    assert_eq!(across(&folder.path("a.png"), WHITE, 40), 2);
+    folder.check("run some.vv -i octahedron.obj -D k=1 --generations 0,1 -o b.png", 1, "some.vv:2");
+}
+
+#[test]
+fn a_sheet_without_room_is_refused_before_anything_is_run() {
+    let said = "3 pictures have no room on 90x60 pixels\n--size WxH";
+    check("run endless.vv -i octahedron.obj --generations 0-2 -o a.png --size 90x60", 2, said);
+    check("run move.vv -i octahedron.obj -D far=0:1:3 -o none/a.png", 3, "there is no directory `none`");
+}

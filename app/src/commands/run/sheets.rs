@@ -1,0 +1,81 @@
+//! Contact sheets: pictures of several runs or generations side by side.
+
+use std::collections::BTreeMap;
+
+use app::files::{self, Prepared};
+use app::sheet::{self, Layout};
+
+use super::super::picture::{self, Exhibit, Shot};
+use super::super::{Exit, error, fail, input};
+use super::Run;
+use super::plan::Sheet;
+
+/// What came out, by number of the run and generation.
+pub type Exhibits = BTreeMap<(usize, u64), Exhibit>;
+
+impl Run<'_> {
+    /// Draws all sheets and writes them beside their places. Runs that failed leave a gap; where all did there is no sheet.
+    ///
+    /// # Errors
+    /// [`Exit::Usage`] where there is too little room, [`Exit::NoRenderer`] or [`Exit::File`]; reported.
+    pub fn sheets(&self, exhibits: &Exhibits) -> Result<Vec<Prepared>, Exit> {
+        let mut prepared = Vec::new();
+        for sheet in self.plan.sheets() {
+            if sheet.tiles.iter().all(|tile| !exhibits.contains_key(&(tile.case, tile.generation))) {
+                continue;
+            }
+            self.reporter.progress(format!("drawing {}", sheet.target.path().display()));
+            let picture = self.sheet(sheet, exhibits)?;
+            let bytes = picture::png(&picture, self.reporter)?;
+            let file = files::prepare(sheet.target.path(), &bytes);
+            prepared.push(file.map_err(|error| input::file_failed(&error, self.reporter))?);
+        }
+        Ok(prepared)
+    }
+
+    /// Where the pictures of a sheet are.
+    ///
+    /// # Errors
+    /// [`Exit::Usage`] where there is too little room, reported.
+    pub fn layout(&self, sheet: &Sheet) -> Result<Layout, Exit> {
+        let (count, (width, height)) = (sheet.tiles.len(), self.shot.size);
+        match Layout::new(self.shot.size, count, sheet.columns) {
+            Some(layout) => Ok(layout),
+            None => {
+                let diagnostic = error(format!("{count} pictures have no room on {width}x{height} pixels"));
+                fail(self.reporter, Exit::Usage, diagnostic.hint("give them more with `--size WxH`"))
+            }
+        }
+    }
+
+    fn sheet(&self, sheet: &Sheet, exhibits: &Exhibits) -> Result<image::RgbaImage, Exit> {
+        let layout = self.layout(sheet)?;
+        let shot = Shot { size: layout.tile(), ..self.shot };
+        let found: Vec<_> = sheet.tiles.iter().map(|tile| exhibits.get(&(tile.case, tile.generation))).collect();
+        let mut cameras = BTreeMap::new();
+        for tile in &sheet.tiles {
+            cameras.entry(tile.input).or_insert_with(|| {
+                let same = sheet.tiles.iter().zip(&found).filter(|(other, _)| other.input == tile.input);
+                picture::camera(&same.filter_map(|(_, exhibit)| *exhibit).collect::<Vec<_>>(), shot)
+            });
+        }
+        let seen: Vec<_> = sheet
+            .tiles
+            .iter()
+            .zip(&found)
+            .filter_map(|(tile, exhibit)| Some(((*exhibit)?, *cameras.get(&tile.input)?)))
+            .collect();
+        let mut pictures = picture::draw(&seen, shot, self.reporter)?.into_iter();
+        let tiles: Vec<_> = sheet
+            .tiles
+            .iter()
+            .zip(&found)
+            .map(|(tile, exhibit)| sheet::Tile {
+                label: tile.label.clone(),
+                picture: exhibit.and_then(|_| pictures.next()),
+            })
+            .collect();
+        let style = &self.shot.look.style;
+        Ok(sheet::compose(&layout, &tiles, style.theme, style.transparent))
+    }
+}
