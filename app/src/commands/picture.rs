@@ -9,7 +9,9 @@ use app::figure::{self, Drawing};
 use app::render::{self, Dressing, Headless, RenderError};
 use app::scene::{Scene, Sphere, Style};
 use app::viewpoint::Viewpoint;
+use glam::DQuat;
 use image::{ImageFormat, RgbaImage};
+use vv::source::Sources;
 use vv::stop::Stop;
 
 use super::look::{self, Look};
@@ -119,7 +121,12 @@ impl Exhibit {
 pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<RgbaImage, Exit> {
     let exhibit = Exhibit::new(result, shot.look, reporter)?;
     let camera = camera(&[&exhibit], shot);
-    draw(&[(&exhibit, camera)], shot, reporter).map(|mut pictures| pictures.pop().unwrap_or_default())
+    let mut drawn = RgbaImage::default();
+    draw(&[(&exhibit, camera)], shot, reporter, |picture| {
+        drawn = picture;
+        Ok(())
+    })?;
+    Ok(drawn)
 }
 
 /// A figure of a mesh.
@@ -160,29 +167,49 @@ pub fn camera(exhibits: &[&Exhibit], shot: Shot<'_>) -> Camera {
     }
 }
 
-/// Pictures of one size, one after the other.
+/// From where a mesh is seen while one goes around it once, to the right, in so many steps; from everywhere it is whole.
+pub fn around(exhibit: &Exhibit, shot: Shot<'_>, steps: u32) -> Vec<Camera> {
+    let (style, aspect) = (shot.style(), render::Size::new(shot.size.0, shot.size.1).aspect());
+    let first = match (camera(&[exhibit], shot), shot.viewpoint) {
+        (camera, Some(Viewpoint::At(_))) => camera,
+        (camera, _) => camera.fit(exhibit.scene.bounds(&style), aspect),
+    };
+    let turned = |step: u32| {
+        let angle = std::f64::consts::TAU * f64::from(step) / f64::from(steps);
+        let turn = DQuat::from_axis_angle(style.up.axis(), angle);
+        Camera { world_from_view: (turn * first.world_from_view).normalize(), ..first }
+    };
+    (0..steps).map(turned).collect()
+}
+
+/// Pictures of one size, one after the other; `take` gets each.
 ///
 /// # Errors
-/// [`Exit::NoRenderer`], reported.
-pub fn draw(exhibits: &[(&Exhibit, Camera)], shot: Shot<'_>, reporter: &Reporter) -> Result<Vec<RgbaImage>, Exit> {
+/// [`Exit::NoRenderer`], reported, and those of `take`.
+pub fn draw(
+    exhibits: &[(&Exhibit, Camera)],
+    shot: Shot<'_>,
+    reporter: &Reporter,
+    mut take: impl FnMut(RgbaImage) -> Result<(), Exit>,
+) -> Result<(), Exit> {
     let size = render::Size::new(shot.size.0, shot.size.1);
     let style = shot.style();
-    let drawn = Headless::new(4).and_then(|headless| {
-        let draw = |(exhibit, camera): &(&Exhibit, Camera)| {
-            let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
-            let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
-            headless.dressed_image(&exhibit.scene, dressing, camera, &style, size)
-        };
-        exhibits.iter().map(draw).collect()
-    });
-    drawn.or_else(|problem| {
+    let failed = |problem: RenderError| {
         let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
         let diagnostic = match problem {
             RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
             RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
         };
-        fail(reporter, Exit::NoRenderer, diagnostic)
-    })
+        reporter.report(&[diagnostic], &Sources::default());
+        Exit::NoRenderer
+    };
+    let headless = Headless::new(4).map_err(failed)?;
+    for (exhibit, camera) in exhibits {
+        let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
+        let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
+        take(headless.dressed_image(&exhibit.scene, dressing, camera, &style, size).map_err(failed)?)?;
+    }
+    Ok(())
 }
 
 /// The picture in PNG format.

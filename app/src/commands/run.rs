@@ -48,6 +48,7 @@ Examples:
   vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n}.obj'       every generation of both
   vv run terrain.vv -D roughness=0.3:0.8:5 -o 'terrain_{roughness}.obj' -o all.png
   vv run loop.vv -i bunny.obj --generations 0-3 -o steps.png --size 1600x450   side by side
+  vv run loop.vv -i bunny.obj -n 2 --turntable 36 -o 'turn_{frame:3}.png'
 
 ";
 
@@ -73,6 +74,9 @@ pub struct Arguments {
     /// them side by side. Default: all, and the last one.
     #[arg(long, value_name = "LIST", value_parser = plan::generations)]
     generations: Option<plan::Generations>,
+    /// Go around the mesh in N pictures; `{frame}` in their names is the number of each, from 0.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
+    turntable: Option<u32>,
     /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value; pictures without `{w}` show them side by side.
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
     definitions: Vec<(String, String)>,
@@ -154,8 +158,12 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     let (rule, steps) =
         what_to_apply(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
     let cases = cases::cases(&program, arguments.input.len(), &arguments.definitions).map_err(usage)?;
-    let given =
-        Given { program: &arguments.program, inputs: &arguments.input, generations: arguments.generations.as_ref() };
+    let given = Given {
+        program: &arguments.program,
+        inputs: &arguments.input,
+        generations: arguments.generations.as_ref(),
+        frames: arguments.turntable,
+    };
     let plan = Plan::new(given, outputs, cases, steps).map_err(usage)?;
     if arguments.reference.is_some() && plan.has_many() {
         return fail(reporter, Exit::Usage, error("`--reference` compares one result, and here are several"));
@@ -300,10 +308,11 @@ impl Run<'_> {
         let summarised = self.arguments.summary.is_some() && self.plan.is_shown(past.generation);
         let reference = self.reference.as_ref().filter(|_| self.plan.is_last(past.generation));
         let on_sheet = self.plan.is_on_sheet(case, past.generation);
-        if targets.is_empty() && !on_sheet && !summarised && reference.is_none() {
+        let turns = self.plan.turns(case, past.generation);
+        if targets.is_empty() && turns.is_empty() && !on_sheet && !summarised && reference.is_none() {
             return Ok(());
         }
-        if mesh.set.is_empty() && (on_sheet || !targets.is_empty()) {
+        if mesh.set.is_empty() && (on_sheet || !turns.is_empty() || !targets.is_empty()) {
             let diagnostic = error("the mesh has no vertices left, so there is nothing to write");
             return fail(self.reporter, Exit::Program, diagnostic);
         }
@@ -317,9 +326,16 @@ impl Run<'_> {
         timings.export_s = outputs.export_s;
         timings.render_s = outputs.render_s;
         made.prepared.extend(outputs.prepared);
-        if on_sheet {
+        if on_sheet || !turns.is_empty() {
             let exhibit = Exhibit::new(result, self.shot.look, self.reporter)?;
-            made.exhibits.insert((case.index, past.generation), exhibit);
+            let drawing = Instant::now();
+            for turn in &turns {
+                made.prepared.extend(self.frames(&exhibit, turn)?);
+            }
+            timings.render_s += drawing.elapsed().as_secs_f64();
+            if on_sheet {
+                made.exhibits.insert((case.index, past.generation), exhibit);
+            }
         }
         made.picture = outputs.picture;
         if summarised {

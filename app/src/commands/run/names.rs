@@ -7,6 +7,9 @@ pub const GENERATION: &str = "n";
 /// The place of the input's name.
 pub const INPUT: &str = "name";
 
+/// The place of the number of a picture of those that go around a mesh.
+pub const FRAME: &str = "frame";
+
 /// Widest place: names of files end somewhere.
 const WIDEST: usize = 64;
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use vv::diagnostic::Diagnostic;
 
 use super::cases::{Case, Cases};
-use super::names::{GENERATION, INPUT, Name};
+use super::names::{FRAME, GENERATION, INPUT, Name};
 use crate::commands::output::Target;
 use crate::commands::{closest, error, list};
 use app::files;
@@ -53,6 +53,8 @@ pub struct Given<'a> {
     pub inputs: &'a [PathBuf],
     /// The generations.
     pub generations: Option<&'a Generations>,
+    /// In how many pictures to go around a mesh.
+    pub frames: Option<u32>,
 }
 
 /// What is made of each run and generation.
@@ -68,6 +70,8 @@ pub struct Plan {
     generations: Option<Vec<u64>>,
     /// Whether anything asks for more than the last generation.
     by_generation: bool,
+    /// In how many pictures to go around a mesh.
+    frames: Option<u32>,
     /// Pictures of several runs or generations.
     sheets: Vec<Sheet>,
 }
@@ -123,6 +127,7 @@ impl Plan {
             steps,
             generations: given.generations.map(|generations| generations.0.clone()),
             by_generation,
+            frames: given.frames,
             sheets: Vec::new(),
         };
         plan.check_size()?;
@@ -170,14 +175,20 @@ impl Plan {
 
     /// What is written of a generation of a run alone.
     pub fn targets(&self, case: &Case, generation: u64) -> Vec<Target> {
-        let at = |(name, target): &(Name, Target)| target.at(self.path(name, case, generation));
+        let at = |(name, target): &(Name, Target)| target.at(self.path(name, case, generation, 0));
+        let still = |(name, target): &&(Name, Target)| !name.has(FRAME) && self.is_due(name, target, generation);
         let alone = |target: &Target| !self.sheets.iter().any(|sheet| sheet.target == *target);
-        self.outputs
-            .iter()
-            .filter(|(name, target)| self.is_due(name, target, generation))
-            .map(at)
-            .filter(alone)
-            .collect()
+        self.outputs.iter().filter(still).map(at).filter(alone).collect()
+    }
+
+    /// The pictures that go around a generation of a run: for each such output, its files.
+    pub fn turns(&self, case: &Case, generation: u64) -> Vec<Vec<Target>> {
+        let moving = |(name, target): &&(Name, Target)| name.has(FRAME) && self.is_due(name, target, generation);
+        let frames = 0..self.frames.unwrap_or_default();
+        let turn = |(name, target): &(Name, Target)| {
+            frames.clone().map(|frame| target.at(self.path(name, case, generation, frame))).collect()
+        };
+        self.outputs.iter().filter(moving).map(turn).collect()
     }
 
     /// Pictures of several runs or generations.
@@ -200,7 +211,7 @@ impl Plan {
 
     /// The pictures of an output that are of several; where each has a name of its own there are none.
     fn sheets_of(&self, name: &Name, target: &Target) -> Vec<Sheet> {
-        if !target.is_picture() {
+        if !target.is_picture() || name.has(FRAME) {
             return Vec::new();
         }
         let mut by_path: BTreeMap<PathBuf, Vec<Tile>> = BTreeMap::new();
@@ -208,7 +219,7 @@ impl Plan {
             for generation in self.in_order().filter(|g| self.is_due(name, target, *g)) {
                 let label = self.tile_label(name, case, generation);
                 let tile = Tile { case: case.index, input: case.input, generation, label };
-                by_path.entry(self.path(name, case, generation)).or_default().push(tile);
+                by_path.entry(self.path(name, case, generation, 0)).or_default().push(tile);
             }
         }
         let columns = self.columns(name);
@@ -236,14 +247,19 @@ impl Plan {
 
     /// Everything that is written.
     pub fn all_targets(&self) -> Vec<Target> {
-        let of_case = |case| self.shown().flat_map(move |generation| self.targets(case, generation));
+        let of_generation = |case, generation| {
+            let turns = self.turns(case, generation).into_iter().flatten();
+            self.targets(case, generation).into_iter().chain(turns)
+        };
+        let of_case = |case| self.shown().flat_map(move |generation| of_generation(case, generation));
         let sheets = self.sheets.iter().map(|sheet| sheet.target.clone());
         self.cases.all.iter().flat_map(of_case).chain(sheets).collect()
     }
 
-    fn path(&self, name: &Name, case: &Case, generation: u64) -> PathBuf {
+    fn path(&self, name: &Name, case: &Case, generation: u64, frame: u32) -> PathBuf {
         name.fill(|what| match what {
             GENERATION => Some(generation.to_string()),
+            FRAME => Some(frame.to_string()),
             INPUT => Some(case.name(&self.inputs, &self.program)),
             parameter => case.value(parameter).map(str::to_owned),
         })
@@ -268,8 +284,17 @@ impl Plan {
     fn check_places(&self) -> Result<(), Box<Diagnostic>> {
         let parameters: Vec<&str> =
             self.cases.all.first().map_or(vec![], |case| case.values.iter().map(|(name, _)| name.as_str()).collect());
-        for (name, _) in &self.outputs {
-            let known = |what: &str| [GENERATION, INPUT].contains(&what) || parameters.contains(&what);
+        let moving = |(name, _): &(Name, Target)| name.has(FRAME);
+        if self.frames.is_some() && !self.outputs.iter().any(moving) {
+            let message = "`--turntable` makes several pictures, and no output has a place for their numbers";
+            return Err(Box::new(error(message).hint("write `-o 'turn_{frame:3}.png'`")));
+        }
+        for (name, target) in &self.outputs {
+            if name.has(FRAME) && (self.frames.is_none() || !target.is_picture()) {
+                let message = format!("`-o {}`: only pictures of a turntable have frames", name.path().display());
+                return Err(Box::new(error(message).hint("add `--turntable 36` and write a `.png`")));
+            }
+            let known = |what: &str| [GENERATION, INPUT, FRAME].contains(&what) || parameters.contains(&what);
             if let Some(what) = name.places().find(|what| !known(what)) {
                 let names = [GENERATION, INPUT].into_iter().chain(parameters.iter().copied());
                 let message = format!("`-o {}`: nothing is called `{what}`", name.path().display());
@@ -287,6 +312,7 @@ impl Plan {
     fn check_size(&self) -> Result<(), Box<Diagnostic>> {
         let generations = if self.by_generation { self.steps.saturating_add(1) } else { 1 };
         let files = generations.saturating_mul((self.cases.all.len() * self.outputs.len().max(1)) as u64);
+        let files = files.saturating_mul(self.frames.unwrap_or(1).into());
         if files > MOST_FILES {
             return Err(Box::new(error(format!("these would be more than {MOST_FILES} files"))));
         }

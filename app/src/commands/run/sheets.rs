@@ -1,10 +1,11 @@
-//! Contact sheets: pictures of several runs or generations side by side.
+//! Contact sheets, pictures of several runs or generations side by side; and pictures that go around a mesh.
 
 use std::collections::BTreeMap;
 
 use app::files::{self, Prepared};
 use app::sheet::{self, Layout};
 
+use super::super::output::Target;
 use super::super::picture::{self, Exhibit, Shot};
 use super::super::{Exit, error, fail, input};
 use super::Run;
@@ -30,6 +31,27 @@ impl Run<'_> {
             let file = files::prepare(sheet.target.path(), &bytes);
             prepared.push(file.map_err(|error| input::file_failed(&error, self.reporter))?);
         }
+        Ok(prepared)
+    }
+
+    /// Draws the pictures that go around a mesh and writes them beside their places.
+    ///
+    /// # Errors
+    /// [`Exit::NoRenderer`] or [`Exit::File`]; reported.
+    pub fn frames(&self, exhibit: &Exhibit, turn: &[Target]) -> Result<Vec<Prepared>, Exit> {
+        let count = u32::try_from(turn.len()).unwrap_or(u32::MAX);
+        let seen: Vec<_> =
+            picture::around(exhibit, self.shot, count).into_iter().map(|camera| (exhibit, camera)).collect();
+        let mut prepared = Vec::new();
+        let mut targets = turn.iter();
+        picture::draw(&seen, self.shot, self.reporter, |picture| {
+            let Some(target) = targets.next() else { return Ok(()) };
+            self.reporter.progress(format!("drawing {}", target.path().display()));
+            let bytes = picture::png(&picture, self.reporter)?;
+            let file = files::prepare(target.path(), &bytes);
+            prepared.push(file.map_err(|error| input::file_failed(&error, self.reporter))?);
+            Ok(())
+        })?;
         Ok(prepared)
     }
 
@@ -65,7 +87,12 @@ impl Run<'_> {
             .zip(&found)
             .filter_map(|(tile, exhibit)| Some(((*exhibit)?, *cameras.get(&tile.input)?)))
             .collect();
-        let mut pictures = picture::draw(&seen, shot, self.reporter)?.into_iter();
+        let mut pictures = Vec::new();
+        picture::draw(&seen, shot, self.reporter, |picture| {
+            pictures.push(picture);
+            Ok(())
+        })?;
+        let mut pictures = pictures.into_iter();
         let tiles: Vec<_> = sheet
             .tiles
             .iter()

@@ -177,3 +177,27 @@ fn a_sheet_without_room_is_refused_before_anything_is_run() {
     check("run endless.vv -i octahedron.obj --generations 0-2 -o a.png --size 90x60", 2, said);
     check("run move.vv -i octahedron.obj -D far=0:1:3 -o none/a.png", 3, "there is no directory `none`");
 }
+
+#[test]
+fn a_turntable_goes_around_the_mesh_once() {
+    let folder = Folder::with(&[]);
+    let still = "run move.vv -i octahedron.obj --rule still -n 0 --view front --style no-edges --size 60x60";
+    folder.check(&format!("{still} --turntable 4 -o f_{{frame:2}}.png -o a.obj"), 0, "");
+    let made: Vec<_> = folder.names().into_iter().filter(|name| name.starts_with("f_")).collect();
+    assert_eq!(made, ["f_00.png", "f_01.png", "f_02.png", "f_03.png"]);
+    folder.check(&format!("{still} --turntable 8 -o g_{{frame}}.png"), 0, "");
+    let differing = |a: &str, b: &str| {
+        let read = |name: &str| image::open(folder.path(name)).unwrap().into_rgba8();
+        read(a).pixels().zip(read(b).pixels()).filter(|(a, b)| a.0[0].abs_diff(b.0[0]) > 30).count()
+    };
+    assert!(differing("f_01.png", "g_2.png") < 20, "a quarter of a turn is a quarter of a turn");
+    assert!(differing("g_0.png", "g_1.png") > 100, "an octahedron looks otherwise from between its corners");
+}
+
+#[test]
+fn frames_need_a_turntable_and_a_turntable_frames() {
+    check("run move.vv -i octahedron.obj -o f_{frame}.png", 2, "add `--turntable 36`");
+    check("run move.vv -i octahedron.obj --turntable 9 -o f_{frame}.obj", 2, "only pictures of a turntable");
+    check("run move.vv -i octahedron.obj --turntable 9 -o f.png", 2, "write `-o 'turn_{frame:3}.png'`");
+    check("run move.vv -i octahedron.obj --turntable 1 -o f_{frame}.png", 2, "--turntable");
+}
