@@ -13,8 +13,13 @@
 
 mod boxes;
 mod chain;
+mod eps;
+mod fill;
 mod hidden;
+mod light;
+mod order;
 mod page;
+mod pdf;
 mod space;
 mod surface;
 mod svg;
@@ -25,8 +30,10 @@ use glam::{DVec3, Vec3Swizzles};
 use rayon::prelude::*;
 
 use vv::mesh::Mesh;
+use vv::mesh::faces::Faces;
 use vv::stop::{Stop, Stopped};
 
+use crate::annotate::Tint;
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
@@ -42,17 +49,23 @@ use surface::{Edge, Surface};
 pub enum Format {
     /// Scalable Vector Graphics.
     Svg,
+    /// Encapsulated PostScript.
+    Eps,
+    /// Portable Document Format.
+    Pdf,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 1] = [Self::Svg];
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Eps, Self::Pdf];
 
     /// What the names of files end in.
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
             Self::Svg => "svg",
+            Self::Eps => "eps",
+            Self::Pdf => "pdf",
         }
     }
 
@@ -177,6 +190,10 @@ impl Settings {
     }
 }
 
+/// What to say of a drawing that is not exact.
+pub const ROUGH: &str =
+    "so many faces hide each other that some were ordered by distance only, so parts of them may be covered wrongly";
+
 /// What is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
@@ -184,6 +201,10 @@ pub struct Subject<'a> {
     pub scene: &'a Scene,
     /// The mesh that the scene was made of.
     pub mesh: &'a Mesh,
+    /// Its faces.
+    pub faces: &'a Faces,
+    /// Their colours, made for the scene.
+    pub tint: Option<&'a Tint>,
 }
 
 /// Draws what `camera` sees in a picture of this width over height. `None` if that is nothing.
@@ -203,7 +224,7 @@ pub fn draw(
     settings: &Settings,
     stop: &Stop,
 ) -> Result<Option<Drawing>, Stopped> {
-    let Subject { scene, mesh } = subject;
+    let Subject { scene, mesh, .. } = subject;
     let bounds = scene.bounds(&Style { control: false, ..*style });
     let space = Space::new(camera, aspect, &style.cut, bounds);
     let surface = Surface::new(scene, mesh, &space, style.control);
@@ -216,6 +237,9 @@ pub fn draw(
         edges.par_iter().map(|edge| if stop.check().is_ok() { hider.hidden(edge) } else { Vec::new() }).collect();
     stop.check()?;
     let mut sketch = Sketch::default();
+    if style.faces {
+        (sketch.faces, sketch.is_rough) = fill::fill(subject, &surface, &space, style, stop)?;
+    }
     for (edge, hidden) in edges.iter().zip(&hidden) {
         let [a, b] = edge.ends.map(DVec3::xy);
         let piece = |&(low, high): &Interval| [a.lerp(b, low), a.lerp(b, high)];
@@ -244,6 +268,8 @@ fn effective(settings: &Settings, style: &Style) -> Settings {
 pub fn write(drawing: &Drawing, format: Format) -> Vec<u8> {
     match format {
         Format::Svg => svg::write(drawing).into_bytes(),
+        Format::Eps => eps::write(drawing).into_bytes(),
+        Format::Pdf => pdf::write(drawing),
     }
 }
 
@@ -256,6 +282,16 @@ fn hundredths(x: i32) -> String {
         _ if part.is_multiple_of(10) => format!("{sign}{whole}.{}", part / 10),
         _ => format!("{sign}{whole}.{part:02}"),
     }
+}
+
+/// A colour as three numbers from 0 to 1.
+fn thousandths(color: [u8; 3]) -> String {
+    let part = |c: u8| {
+        let text = format!("{:.3}", f64::from(c) / 255.0);
+        let text = text.trim_end_matches('0').trim_end_matches('.');
+        if text.len() > 1 { text.trim_start_matches('0').to_owned() } else { text.to_owned() }
+    };
+    color.map(part).join(" ")
 }
 
 /// Hundredths of a point in millimetres.

@@ -12,7 +12,7 @@
 
 mod frame;
 mod headless;
-mod palette;
+pub(crate) mod palette;
 mod pipelines;
 pub mod shaders;
 mod target;

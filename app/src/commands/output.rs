@@ -21,7 +21,7 @@ use super::{Exit, error, fail, input, picture, view};
 /// What to write.
 #[derive(Debug, Args)]
 pub struct OutputArguments {
-    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf), a picture of it (.png) or a figure for a paper, of lines and areas (.svg); `-` is stdout. May be repeated.
+    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf), a picture of it (.png) or a figure for a paper, of lines and areas (.svg, .eps, .pdf); `-` is stdout. May be repeated.
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// What `-o -` writes, and files whose extension does not say or of which there are several kinds.
@@ -158,7 +158,7 @@ impl OutputArguments {
             }
             None => Err(error(format!("`-o {}` has no extension that vv writes", path.display()))
                 .hint(format!(
-                    "write {}, a picture, `.png`, or a figure, `.svg`, or say `--format`",
+                    "write {}, a picture, `.png`, or a figure, `.svg`, `.eps` or `.pdf`, or say `--format`",
                     files::mesh_extensions("or")
                 ))
                 .into()),

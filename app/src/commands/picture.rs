@@ -11,6 +11,7 @@ use app::scene::{Scene, Sphere, Style};
 use app::viewpoint::Viewpoint;
 use glam::DQuat;
 use image::{ImageFormat, RgbaImage};
+use vv::diagnostic::{Diagnostic, Severity};
 use vv::source::Sources;
 use vv::stop::Stop;
 
@@ -137,13 +138,20 @@ pub fn figure(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> 
     let exhibit = Exhibit::new(result, shot.look, reporter)?;
     let (camera, style) = (camera(&[&exhibit], shot), shot.style());
     let aspect = render::Size::new(shot.size.0, shot.size.1).aspect();
-    let subject = figure::Subject { scene: &exhibit.scene, mesh: result.mesh };
+    let subject =
+        figure::Subject { scene: &exhibit.scene, mesh: result.mesh, faces: result.faces, tint: exhibit.tint.as_ref() };
     let figure = &shot.look.figure;
     let Ok(drawing) = figure::draw(subject, &camera, aspect, &style, figure, &Stop::new()) else {
         return Err(Exit::Budget); // not reached: nobody stops it
     };
     match drawing {
-        Some(drawing) => Ok(drawing),
+        Some(drawing) => {
+            if !drawing.is_exact {
+                let warning = Diagnostic::new(Severity::Warning, None, figure::ROUGH);
+                reporter.report(&[warning.hint("leave faces empty with `--style no-faces`")], &Sources::default());
+            }
+            Ok(drawing)
+        }
         None => fail(reporter, Exit::Usage, error("nothing of the mesh is seen from there, so there is no figure")),
     }
 }

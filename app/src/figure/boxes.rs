@@ -82,6 +82,11 @@ impl Boxes {
         );
     }
 
+    /// Calls `found` with those whose boxes meet a rectangle, until that says no.
+    pub fn meeting(&self, low: DVec2, high: DVec2, found: impl FnMut(u32) -> bool) {
+        self.visit(|e| e.low.cmple(high).all() && low.cmple(e.high).all(), found);
+    }
+
     fn visit(&self, wanted: impl Fn(&Extent) -> bool, mut found: impl FnMut(u32) -> bool) {
         let mut waiting = vec![0];
         while let Some(index) = waiting.pop() {

@@ -62,6 +62,8 @@ pub struct Drawing {
     pub size: At,
     /// From below to above.
     pub layers: Vec<Layer>,
+    /// Whether all faces are in their right order: not if that would take too many pieces.
+    pub is_exact: bool,
 }
 
 /// What is to be drawn, in picture coordinates.
@@ -70,6 +72,8 @@ pub(super) struct Sketch {
     pub faces: Vec<(Vec<DVec2>, [u8; 3])>,
     pub lines: [Vec<[DVec2; 2]>; Class::ALL.len()],
     pub dots: Vec<DVec2>,
+    /// Whether some faces are ordered by distance only.
+    pub is_rough: bool,
 }
 
 const DOT: [u8; 3] = [0; 3];
@@ -113,7 +117,7 @@ pub(super) fn lay_out(sketch: Sketch, settings: &Settings, dot_size: f64) -> Opt
         let places = sketch.dots.iter().map(at).collect();
         layers.push(Layer::Dots { diameter: hundredths(dot_size), color: DOT, places });
     }
-    Some(Drawing { size: At { x: corner.x + margin, y: corner.y + margin }, layers })
+    Some(Drawing { size: At { x: corner.x + margin, y: corner.y + margin }, layers, is_exact: !sketch.is_rough })
 }
 
 /// Points for each unit of the picture.

@@ -16,6 +16,8 @@ pub(super) struct Triangle {
     pub vertices: [u32; 3],
     /// The vertices of the whole triangle.
     pub whole: [u32; 3],
+    /// Which triangle of the scene.
+    pub number: u32,
 }
 
 /// What is seen of an edge if nothing is before it.
@@ -41,6 +43,10 @@ pub(super) struct Surface {
     pub fronts: Vec<bool>,
     /// The vertices that lie inside the picture.
     pub vertices: Vec<(u32, DVec3)>,
+    /// All vertices in view coordinates.
+    pub points: Vec<DVec3>,
+    /// Which of them each vertex of the mesh is; [`NONE`] for those left out.
+    pub corner_of: Vec<u32>,
 }
 
 impl Surface {
@@ -63,12 +69,12 @@ impl Surface {
         }
         let inside = (0..).zip(&points).filter(|(_, p)| space.holds(**p));
         surface.vertices = inside.map(|(v, p)| (v, space.project(*p))).collect();
-        surface
+        Self { points, corner_of, ..surface }
     }
 
     fn add_triangles(&mut self, wholes: &[[u32; 3]], points: &[DVec3], space: &Space) {
         let (mut polygon, mut scratch) = (Vec::new(), Vec::new());
-        for &whole in wholes {
+        for (number, &whole) in (0..).zip(wholes) {
             let [a, b, c] = whole.map(|v| points[v as usize]);
             self.fronts.push((b - a).cross(c - a).dot(space.to_eye(a)) > 0.0);
             polygon.clear();
@@ -77,7 +83,7 @@ impl Surface {
             for i in 2..polygon.len() {
                 let piece = [polygon[0], polygon[i - 1], polygon[i]];
                 let (corners, vertices) = (piece.map(|p| space.project(p.at)), piece.map(|p| p.vertex));
-                self.triangles.push(Triangle { corners, vertices, whole });
+                self.triangles.push(Triangle { corners, vertices, whole, number });
             }
         }
     }

@@ -10,6 +10,7 @@ use vv::mesh::faces::faces;
 
 struct Case {
     mesh: Mesh,
+    faces: Faces,
     scene: Scene,
 }
 
@@ -18,7 +19,7 @@ impl Case {
         let (mesh, _) = read(obj.as_bytes(), MeshFormat::Obj, &ReadOptions::default()).unwrap();
         let faces = faces(&mesh, &Stop::new()).unwrap();
         let scene = Scene::new(&mesh, &faces, None, &Stop::new()).unwrap();
-        Self { mesh, scene }
+        Self { mesh, faces, scene }
     }
 
     fn camera(&self, orthographic: bool) -> Camera {
@@ -27,7 +28,7 @@ impl Case {
     }
 
     fn draw_from(&self, camera: &Camera, style: &Style, settings: &Settings) -> Option<Drawing> {
-        let subject = Subject { scene: &self.scene, mesh: &self.mesh };
+        let subject = Subject { scene: &self.scene, mesh: &self.mesh, faces: &self.faces, tint: None };
         draw(subject, camera, 1.0, style, settings, &Stop::new()).unwrap()
     }
 

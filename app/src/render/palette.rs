@@ -6,7 +6,7 @@
 use crate::scene::Theme;
 
 /// Colours as sRGB bytes with opacity.
-pub(super) struct Palette {
+pub(crate) struct Palette {
     pub background_top: [u8; 4],
     pub background_bottom: [u8; 4],
     pub front: [u8; 4],
@@ -58,7 +58,7 @@ const DARK: Palette = Palette {
     arrow: [0xe6, 0xb4, 0xff, 0xff],
 };
 
-pub(super) fn palette(theme: Theme) -> &'static Palette {
+pub(crate) fn palette(theme: Theme) -> &'static Palette {
     match theme {
         Theme::Light => &LIGHT,
         Theme::Dark => &DARK,
@@ -77,11 +77,11 @@ pub(super) fn opaque([r, g, b]: [u8; 3]) -> [f32; 4] {
 }
 
 /// The sRGB transfer function (IEC 61966-2-1), from the encoded value to light.
-pub(super) fn to_linear(c: f32) -> f32 {
+pub(crate) fn to_linear(c: f32) -> f32 {
     if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Its inverse.
-pub(super) fn to_srgb(c: f32) -> f32 {
+pub(crate) fn to_srgb(c: f32) -> f32 {
     if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
 }

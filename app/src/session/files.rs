@@ -266,7 +266,7 @@ impl Session {
             Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
             Purpose::OpenProject | Purpose::SaveProject => dialog.add_filter("vv projects", &[project::EXTENSION]),
             Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &Format::EXTENSIONS),
-            Purpose::SavePicture => dialog.add_filter("pictures", &["png"]),
+            Purpose::SavePicture => dialog.add_filter("pictures and figures", &["png", "svg", "eps", "pdf"]),
         };
         dialog = match purpose {
             Purpose::SaveProgram => dialog.set_file_name(&program.name),

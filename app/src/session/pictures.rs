@@ -10,7 +10,8 @@ use crate::document::ProgramText;
 use crate::preferences::{Background, PictureOptions};
 use crate::render::{self, Size};
 use crate::scene::{Style, Theme};
-use crate::{files, gallery, library};
+use crate::{figure, files, gallery, library};
+use vv::stop::Stop;
 
 impl Session {
     /// A program that ships with vv as the gallery shows it.
@@ -50,7 +51,35 @@ impl Session {
         format!("{}.png", name.strip_suffix(".vv").unwrap_or(name))
     }
 
+    /// Writes a figure of lines and areas.
+    fn figure_to(&mut self, path: PathBuf, format: figure::Format) {
+        let Some(frame) = self.frame.clone() else { return };
+        let (size, camera) = (self.picture_size(&self.preferences.picture), self.document.camera);
+        let style = self.view.map_or(self.document.style, |(_, style)| style);
+        let annotations = self.document.annotations.clone();
+        let name = crate::document::file_name(&path);
+        self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
+        self.in_background(move || {
+            let failed = |problem: String| format!("{}: {problem}", path.display());
+            frame.colors.find(&frame.subject(), &annotations, &Stop::new());
+            let tint = frame.colors.colors(&annotations.color_by).and_then(Result::ok);
+            let subject =
+                figure::Subject { scene: &frame.scene, mesh: &frame.mesh, faces: &frame.faces, tint: tint.as_deref() };
+            let settings = figure::Settings::default();
+            let drawing = figure::draw(subject, &camera, size.aspect(), &style, &settings, &Stop::new());
+            let drawing = drawing.map_err(|stopped| failed(stopped.to_string()))?;
+            let drawing = drawing.ok_or_else(|| failed("nothing of the mesh is seen".to_owned()))?;
+            let bytes = figure::write(&drawing, format);
+            files::write(&path, &bytes).map_err(|e| failed(e.diagnostic.message.clone()))?;
+            Ok(if drawing.is_exact { format!("saved {name}") } else { format!("saved {name}: {}", figure::ROUGH) })
+        });
+    }
+
     pub(super) fn picture_to(&mut self, path: PathBuf) {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        if let Some(format) = figure::Format::from_extension(&extension) {
+            return self.figure_to(path, format);
+        }
         let Some(frame) = self.frame.clone() else { return };
         let options = self.preferences.picture;
         let (size, camera) = (self.picture_size(&options), self.document.camera);

@@ -1,0 +1,86 @@
+//! Encapsulated PostScript, level 2.
+
+use std::fmt::Write as _;
+
+use super::page::{At, Drawing, Layer};
+use super::{Dash, hundredths, thousandths};
+
+/// Short names for what comes often; paths go from point to point.
+const PROLOGUE: &str = "\
+%%BeginProlog
+12 dict begin
+/m{moveto}bind def
+/l{rlineto}bind def
+/s{stroke}bind def
+/z{closepath stroke}bind def
+/f{setrgbcolor closepath gsave fill grestore stroke}bind def
+/d{moveto 0 0 rlineto stroke}bind def
+%%EndProlog
+";
+
+/// The drawing as a text.
+pub(super) fn write(drawing: &Drawing) -> String {
+    let At { x, y } = drawing.size;
+    let whole = |x: i32| (f64::from(x) / 100.0).ceil();
+    let mut text = format!(
+        "%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 {} {}\n%%HiResBoundingBox: 0 0 {} {}\n%%LanguageLevel: 2\n\
+         %%EndComments\n{PROLOGUE}gsave\n0 {} translate 1 -1 scale\n1 setlinejoin\n",
+        whole(x),
+        whole(y),
+        hundredths(x),
+        hundredths(y),
+        hundredths(y)
+    );
+    for layer in &drawing.layers {
+        // What is written into a string is written.
+        let _ = write_layer(&mut text, layer);
+    }
+    text.push_str("grestore\nend\nshowpage\n%%EOF\n");
+    text
+}
+
+fn write_layer(text: &mut String, layer: &Layer) -> std::fmt::Result {
+    match layer {
+        Layer::Faces(areas) => {
+            writeln!(text, "% faces\n.3 setlinewidth")?;
+            for (corners, color) in areas {
+                writeln!(text, "{}{} f", path(corners), thousandths(*color))?;
+            }
+        }
+        Layer::Lines { class, line, paths } => {
+            let width = hundredths((line.width * 100.0).round() as i32);
+            writeln!(text, "% {}\n{width} setlinewidth {} setrgbcolor", class.name(), thousandths(line.color))?;
+            match line.dash {
+                Dash::Solid => writeln!(text, "1 setlinecap [] 0 setdash")?,
+                dash => {
+                    let lengths = dash.lengths(line.width).map(hundredths).join(" ");
+                    writeln!(text, "0 setlinecap [{lengths}] 0 setdash")?;
+                }
+            }
+            for line in paths {
+                writeln!(text, "{}{}", path(&line.points), if line.closed { "z" } else { "s" })?;
+            }
+        }
+        Layer::Dots { diameter, color, places } => {
+            let (width, color) = (hundredths(*diameter), thousandths(*color));
+            writeln!(text, "% vertices\n{width} setlinewidth {color} setrgbcolor 1 setlinecap [] 0 setdash")?;
+            for At { x, y } in places {
+                writeln!(text, "{} {} d", hundredths(*x), hundredths(*y))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn path(points: &[At]) -> String {
+    let mut text = String::new();
+    let mut before = At { x: 0, y: 0 };
+    for (i, &p) in points.iter().enumerate() {
+        let (x, y) = (hundredths(p.x - before.x), hundredths(p.y - before.y));
+        // Lines of a file have at most 255 characters.
+        let end = if i % 12 == 11 { '\n' } else { ' ' };
+        let _ = write!(text, "{x} {y} {}{end}", if i == 0 { 'm' } else { 'l' });
+        before = p;
+    }
+    text
+}
