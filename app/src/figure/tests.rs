@@ -287,6 +287,166 @@ fn hidden_lines_are_those_that_a_depth_buffer_hides() {
     }
 }
 
+/// Looks through the picture at many places: what was painted last there is what is nearest.
+#[track_caller]
+fn check_order(obj: &str, orthographic: bool) {
+    let case = Case::new(obj);
+    let part = &case.scene.mesh;
+    let camera = case.camera(orthographic);
+    let space = Space::new(&camera, 1.0, &Style::default().cut, case.scene.bounds(&Style::default()));
+    let surface = Surface::new(&case.scene, &case.mesh, &space, false);
+    let face_of: Vec<u32> = surface.triangles.iter().map(|t| part.triangle_faces[t.number as usize]).collect();
+    let broken = vec![false; case.faces.len()];
+    let order = order::order(&surface.triangles, &face_of, &broken, &Stop::new()).unwrap();
+    assert!(order.is_exact);
+    let polygon = |face: u32| -> Vec<DVec2> {
+        let corners = case.faces.get(face as usize).iter().map(|v| surface.corner_of[v.index()]);
+        corners.map(|c| space.project(surface.points[c as usize]).truncate()).collect()
+    };
+    let areas: Vec<(Vec<DVec2>, u32)> = order
+        .painted
+        .iter()
+        .map(|painted| match painted {
+            order::Painted::Whole(face) => (polygon(*face), *face),
+            order::Painted::Piece(corners, number) => (corners.clone(), face_of[*number as usize]),
+        })
+        .collect();
+    let covers = |corners: &[DVec2], p: DVec2| {
+        let crosses =
+            |(a, b): (DVec2, DVec2)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y);
+        (0..corners.len()).filter(|&i| crosses((corners[i], corners[(i + 1) % corners.len()]))).count() % 2 == 1
+    };
+    let (mut covered, mut wrong) = (0, 0);
+    for i in 0..70 * 70 {
+        // Not where the symmetry of a mesh puts its edges.
+        let p = DVec2::new(f64::from(i % 70) + 0.37, f64::from(i / 70) + 0.61) / 35.0 - 1.0;
+        let depths = surface.triangles.iter().zip(&face_of).filter_map(|(t, &face)| {
+            let (inside, depth) = depth(&t.corners, p)?;
+            inside.then_some((depth, face))
+        });
+        let nearest = depths.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, face)| face);
+        let painted = areas.iter().rev().find(|(corners, _)| covers(corners, p)).map(|(_, face)| *face);
+        covered += usize::from(nearest.is_some());
+        wrong += usize::from(nearest != painted);
+    }
+    assert!(covered > 500);
+    assert_eq!(wrong, 0, "of {covered} places");
+}
+
+#[test]
+fn faces_are_painted_from_back_to_front_and_cut_where_they_pierce_each_other() {
+    for orthographic in [false, true] {
+        check_order(CUBE, orthographic);
+        check_order(L, orthographic);
+        check_order(&tori(1.0), orthographic);
+        check_order(&tori(0.55), orthographic);
+        check_order(&saddles(), orthographic);
+        check_order(&sierpinski(3), orthographic);
+    }
+    // Three bars that hide each other in a circle.
+    check_order(
+        "v -1 -0.2 0.3\nv 1 -0.2 -0.3\nv 1 0.2 -0.3\nv -1 0.2 0.3\nv 0.3 -1 0.3\nv 0.7 -1 0.3\nv -0.2 1 -0.3\n\
+         v -0.6 1 -0.3\nv 0.5 1 0.35\nv 0.9 0.9 0.35\nv -0.4 -1 -0.4\nv -0.8 -0.9 -0.4\nf 1 2 3 4\nf 5 6 7 8\n\
+         f 9 10 11 12\n",
+        true,
+    );
+}
+
+#[test]
+fn faces_have_the_colours_of_their_vertices() {
+    let red = CUBE.lines().map(|l| if l.starts_with('v') { format!("{l} 1 0 0\n") } else { format!("{l}\n") });
+    let case = Case::new(&red.collect::<String>());
+    let drawing = case.draw_from(&case.camera(false), &Style::default(), &Settings::default()).unwrap();
+    let Some(Layer::Faces(areas)) = drawing.layers.first() else { panic!("{drawing:?}") };
+    assert_eq!(areas.len(), 6);
+    assert!(areas.iter().all(|(_, [r, g, b])| *r > 2 * g.max(b)), "{areas:?}");
+}
+
+#[test]
+fn the_light_is_that_of_the_windows_pictures() {
+    let shader = include_str!("../../../shaders/faces.wgsl");
+    let own = include_str!("light.rs").replace("_f32", "").replace("Vec3::new", "vec3");
+    for name in [
+        "UP",
+        "SKY",
+        "GROUND",
+        "KEY_DIRECTION",
+        "KEY",
+        "FILL_DIRECTION",
+        "FILL",
+        "GLOSS",
+        "GLOSS_POWER",
+        "RIM",
+        "RIM_POWER",
+        "BACK",
+    ] {
+        let value = |text: &str| {
+            let is = |line: &&str| [":", " ="].iter().any(|end| line.starts_with(&format!("const {name}{end}")));
+            let line = text.lines().find(is);
+            line.and_then(|l| l.split(" = ").nth(1)).map(|l| l.split(';').next().unwrap_or_default().to_owned())
+        };
+        assert_eq!(value(&own), value(shader), "{name}");
+    }
+}
+
+/// The drawing of a cube in a format.
+fn written(format: Format) -> Vec<u8> {
+    let case = Case::new(CUBE);
+    let style = Style { vertices: true, ..Style::default() };
+    write(&case.draw_from(&case.camera(false), &style, &with_hidden()).unwrap(), format)
+}
+
+#[test]
+fn svg_is_xml_with_a_group_for_each_class() {
+    let text = String::from_utf8(written(Format::Svg)).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let groups = document.root_element().children().filter(roxmltree::Node::is_element);
+    let ids: Vec<_> =
+        groups.map(|g| (g.attribute("id").unwrap(), g.children().filter(|c| c.is_element()).count())).collect();
+    assert_eq!(ids.iter().map(|g| g.0).collect::<Vec<_>>(), ["faces", "hidden", "inner", "outline", "vertices"]);
+    assert_eq!((ids[0].1, ids[4].1), (6, 7));
+}
+
+#[test]
+fn eps_has_a_tight_box_and_short_lines() {
+    let text = String::from_utf8(written(Format::Eps)).unwrap();
+    assert!(text.starts_with("%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 341 "), "{text}");
+    assert!(text.contains("\n%%HiResBoundingBox: 0 0 340.15 ") && text.ends_with("showpage\n%%EOF\n"), "{text}");
+    assert!(text.lines().all(|line| line.len() < 256 && line.is_ascii()));
+    let count = |word: &str| text.split_whitespace().filter(|w| *w == word).count();
+    assert_eq!((count("f"), count("d")), (6, 7));
+    assert_eq!(count("begin"), count("end"));
+}
+
+#[test]
+fn pdf_says_where_its_objects_are() {
+    use std::io::Read as _;
+
+    let bytes = written(Format::Pdf);
+    let find = |what: &[u8]| bytes.windows(what.len()).rposition(|w| w == what).unwrap();
+    let text = |from: usize| String::from_utf8_lossy(&bytes[from..]).into_owned();
+    let table: usize = text(find(b"startxref")).lines().nth(1).unwrap().parse().unwrap();
+    let entries = text(table);
+    assert!(entries.starts_with("xref\n0 5\n"), "{entries}");
+    for (number, entry) in (1..5).zip(entries.lines().skip(3)) {
+        let offset: usize = entry[..10].parse().unwrap();
+        assert!(text(offset).starts_with(&format!("{number} 0 obj\n")));
+    }
+    let from = find(b"\nstream\n") + 8;
+    let mut content = String::new();
+    flate2::read::ZlibDecoder::new(&bytes[from..]).read_to_string(&mut content).unwrap();
+    let count = |word: &str| content.split_whitespace().filter(|w| *w == word).count();
+    assert_eq!(count("b"), 6, "{content}");
+    assert!(bytes.starts_with(b"%PDF-1.4\n") && bytes.ends_with(b"%%EOF\n"));
+}
+
+#[test]
+fn numbers_are_as_short_as_can_be() {
+    let numbers = [0, 5, -5, 50, 100, -123, 1200].map(hundredths);
+    assert_eq!(numbers, ["0", ".05", "-.05", ".5", "1", "-1.23", "12"]);
+    assert_eq!(thousandths([0, 128, 255]), "0 .502 1");
+}
+
 #[test]
 fn a_figure_is_the_same_each_time() {
     let case = Case::new(&tori(0.55));

@@ -46,3 +46,12 @@ fn a_figure_that_cannot_be_made_leaves_nothing() {
     let said = "nothing of the mesh is seen from there, so there is no figure";
     folder.check("mesh convert octahedron.obj -o a.svg --view away.txt", 2, said);
 }
+
+#[test]
+fn a_figure_is_of_the_kind_that_its_name_says() {
+    let folder = Folder::with(&[]);
+    folder.check("run triangle.vv -o a.eps -o a.pdf -o a.svg", 0, "");
+    assert!(folder.read("a.eps").starts_with("%!PS-Adobe-3.0 EPSF-3.0\n"));
+    assert!(fs::read(folder.path("a.pdf")).unwrap().starts_with(b"%PDF-1.4\n"));
+    assert!(folder.read("a.svg").contains("<g id=\"faces\""));
+}
