@@ -87,7 +87,7 @@ pub enum Class {
     Control,
     /// Between a face seen from outside and one seen from inside.
     Outline,
-    /// With a face on one side only, or none.
+    /// With a face on one side only, or none; or where the mesh is cut.
     Boundary,
     /// Whose property `sharpness` is more than 0.
     Crease,

@@ -37,6 +37,8 @@ pub(super) struct Space {
     parallel: bool,
     /// Normal, in view coordinates, and offset: seen where n · p + o ≥ 0.
     planes: Vec<(DVec3, f64)>,
+    /// The last of them, if it is a cut.
+    cut: Option<(DVec3, f64)>,
 }
 
 impl Space {
@@ -58,11 +60,13 @@ impl Space {
             half_height,
             parallel: camera.orthographic,
             planes: Vec::new(),
+            cut: None,
         };
         if let Some(Plane { normal, place }) = cut.plane(bounds, camera) {
             let point = space.view(normal * place);
             let normal = space.turn * normal;
-            planes.push((-normal, normal.dot(point)));
+            space.cut = Some((-normal, normal.dot(point)));
+            planes.extend(space.cut);
         }
         space.planes = planes;
         space
@@ -91,6 +95,15 @@ impl Space {
     /// Whether a point is seen.
     pub fn holds(&self, p: DVec3) -> bool {
         self.planes.iter().all(|&(normal, offset)| normal.dot(p) + offset >= 0.0)
+    }
+
+    /// Whether a line that clipping left lies along the cut.
+    pub fn is_cut(&self, ends: [Point; 2]) -> bool {
+        let made = ends.iter().any(|p| p.vertex == NONE);
+        let on = |(normal, offset): (DVec3, f64)| {
+            ends.iter().all(|p| (normal.dot(p.at) + offset).abs() < 1e-9 * self.half_height)
+        };
+        made && self.cut.is_some_and(on)
     }
 
     /// What is seen of a line.

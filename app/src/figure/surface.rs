@@ -80,6 +80,13 @@ impl Surface {
             polygon.clear();
             polygon.extend(whole.map(|vertex| Point { at: points[vertex as usize], vertex }));
             space.clip(&mut polygon, &mut scratch);
+            for (i, &p) in polygon.iter().enumerate() {
+                let ends = [p, polygon[(i + 1) % polygon.len()]];
+                if space.is_cut(ends) {
+                    let ends = ends.map(|p| space.project(p.at));
+                    self.edges.push(Edge { ends, vertices: [NONE; 2], whole: [NONE; 2], class: Class::Boundary });
+                }
+            }
             for i in 2..polygon.len() {
                 let piece = [polygon[0], polygon[i - 1], polygon[i]];
                 let (corners, vertices) = (piece.map(|p| space.project(p.at)), piece.map(|p| p.vertex));

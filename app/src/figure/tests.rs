@@ -86,6 +86,20 @@ fn an_open_mesh_has_a_boundary_and_shows_its_inside() {
 }
 
 #[test]
+fn a_cut_is_lined() {
+    let case = Case::new(CUBE);
+    let cut = crate::scene::Cut { on: true, ..Default::default() };
+    let style = Style { cut, ..Style::default() };
+    let drawing = case.draw_from(&case.camera(false), &style, &Settings::default()).unwrap();
+    let boundary = drawing.layers.iter().find_map(|layer| match layer {
+        Layer::Lines { class: Class::Boundary, paths, .. } => Some(paths),
+        _ => None,
+    });
+    // A square, its four sides seen from where the other half was.
+    assert!(matches!(&boundary.unwrap()[..], [path] if path.closed && path.points.len() == 4), "{boundary:?}");
+}
+
+#[test]
 fn creases_are_lines_of_their_own() {
     Case::new(&format!("{CUBE}t crease 2/1/0 6 7 2\n")).check("3 hidden, 2 inner, 6 outline, 1 crease");
 }
