@@ -21,7 +21,7 @@ use super::{Exit, error, fail, input, picture, view};
 /// What to write.
 #[derive(Debug, Args)]
 pub struct OutputArguments {
-    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf), a picture of it (.png) or a figure for a paper, of lines and areas (.svg, .eps, .pdf); `-` is stdout. May be repeated.
+    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf), a picture of it (.png; .gif if it moves) or a figure for a paper, of lines and areas (.svg, .eps, .pdf); `-` is stdout. May be repeated.
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// What `-o -` writes, and files whose extension does not say or of which there are several kinds.
@@ -48,6 +48,9 @@ enum Kind {
 
 /// The extension and name of pictures.
 const PICTURE: &str = "png";
+
+/// The extension of pictures that move.
+const FILM: &str = "gif";
 
 fn kind() -> impl TypedValueParser<Value = Kind> {
     let figures = figure::Format::ALL.map(figure::Format::extension);
@@ -112,6 +115,10 @@ impl OutputArguments {
     /// [`Exit::Usage`] or [`Exit::File`], reported.
     pub fn targets(&self, reporter: &Reporter) -> Result<Vec<Target>, Exit> {
         let targets = self.formats(reporter)?;
+        if let Some(film) = targets.iter().find(|target| target.is_film()) {
+            let message = format!("`-o {}`: nothing moves here", film.path.display());
+            return fail(reporter, Exit::Usage, error(message).hint("`vv run` goes around a mesh with `--turntable`"));
+        }
         check_places(&targets, reporter)?;
         Ok(targets)
     }
@@ -148,7 +155,7 @@ impl OutputArguments {
         if let Some(format) = figure::Format::from_extension(&extension) {
             return Ok(Kind::Figure(format));
         }
-        if extension.eq_ignore_ascii_case(PICTURE) {
+        if [PICTURE, FILM].iter().any(|known| extension.eq_ignore_ascii_case(known)) {
             return Ok(Kind::Picture);
         }
         match self.format {
@@ -175,6 +182,11 @@ impl Target {
     /// Whether it is a picture in pixels.
     pub fn is_picture(&self) -> bool {
         self.kind == Kind::Picture
+    }
+
+    /// Whether it is a picture that moves.
+    pub fn is_film(&self) -> bool {
+        self.is_picture() && self.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(FILM))
     }
 
     /// Where.

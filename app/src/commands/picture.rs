@@ -10,7 +10,8 @@ use app::render::{self, Dressing, Headless, RenderError};
 use app::scene::{Scene, Sphere, Style};
 use app::viewpoint::Viewpoint;
 use glam::DQuat;
-use image::{ImageFormat, RgbaImage};
+use image::codecs::gif::{GifEncoder, Repeat};
+use image::{Delay, Frame, ImageFormat, RgbaImage};
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::source::Sources;
 use vv::stop::Stop;
@@ -230,4 +231,32 @@ pub fn png(picture: &RgbaImage, reporter: &Reporter) -> Result<Vec<u8>, Exit> {
         Ok(()) => Ok(bytes.into_inner()),
         Err(problem) => fail(reporter, Exit::File, error(format!("the picture cannot be written: {problem}"))),
     }
+}
+
+/// How carefully the 256 colours of a picture of a film are chosen, from 1 to 30: more is faster.
+const HASTE: i32 = 10;
+
+/// A film in GIF format, for ever from the beginning again, of pictures that are shown for so many milliseconds.
+///
+/// # Errors
+/// As [`draw`]; [`Exit::File`] if a side has more than 65535 pixels, reported.
+pub fn film(
+    exhibits: &[(&Exhibit, Camera)],
+    shot: Shot<'_>,
+    milliseconds: u32,
+    reporter: &Reporter,
+) -> Result<Vec<u8>, Exit> {
+    let failed = |problem: image::ImageError| {
+        reporter.report(&[error(format!("the film cannot be written: {problem}"))], &Sources::default());
+        Exit::File
+    };
+    let delay = Delay::from_numer_denom_ms(milliseconds, 1);
+    let mut bytes = Vec::new();
+    let mut encoder = GifEncoder::new_with_speed(&mut bytes, HASTE);
+    encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
+    draw(exhibits, shot, reporter, |picture| {
+        encoder.encode_frame(Frame::from_parts(picture, 0, 0, delay)).map_err(failed)
+    })?;
+    drop(encoder); // writes the end
+    Ok(bytes)
 }

@@ -48,7 +48,7 @@ Examples:
   vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n}.obj'       every generation of both
   vv run terrain.vv -D roughness=0.3:0.8:5 -o 'terrain_{roughness}.obj' -o all.png
   vv run loop.vv -i bunny.obj --generations 0-3 -o steps.png --size 1600x450   side by side
-  vv run loop.vv -i bunny.obj -n 2 --turntable 36 -o 'turn_{frame:3}.png'
+  vv run loop.vv -i bunny.obj -n 2 --turntable 36 -o 'turn_{frame:3}.png' -o turn.gif
 
 ";
 
@@ -74,7 +74,7 @@ pub struct Arguments {
     /// them side by side. Default: all, and the last one.
     #[arg(long, value_name = "LIST", value_parser = plan::generations)]
     generations: Option<plan::Generations>,
-    /// Go around the mesh in N pictures; `{frame}` in their names is the number of each, from 0.
+    /// Go around the mesh in N pictures: `{frame}` in their names is the number of each, from 0; a .gif holds them all.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
     turntable: Option<u32>,
     /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value; pictures without `{w}` show them side by side.
@@ -186,7 +186,8 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
         began,
         reporter,
     };
-    plan.sheets().iter().try_for_each(|sheet| run.layout(sheet).map(drop))?;
+    let mut sheets = plan.sheets().iter().filter(|sheet| !sheet.target.is_film());
+    sheets.try_for_each(|sheet| run.layout(sheet).map(drop))?;
     run.all(&timings)
 }
 

@@ -176,19 +176,31 @@ impl Plan {
     /// What is written of a generation of a run alone.
     pub fn targets(&self, case: &Case, generation: u64) -> Vec<Target> {
         let at = |(name, target): &(Name, Target)| target.at(self.path(name, case, generation, 0));
-        let still = |(name, target): &&(Name, Target)| !name.has(FRAME) && self.is_due(name, target, generation);
+        let still =
+            |(name, target): &&(Name, Target)| !self.is_turn(name, target) && self.is_due(name, target, generation);
         let alone = |target: &Target| !self.sheets.iter().any(|sheet| sheet.target == *target);
         self.outputs.iter().filter(still).map(at).filter(alone).collect()
     }
 
     /// The pictures that go around a generation of a run: for each such output, its files.
     pub fn turns(&self, case: &Case, generation: u64) -> Vec<Vec<Target>> {
-        let moving = |(name, target): &&(Name, Target)| name.has(FRAME) && self.is_due(name, target, generation);
-        let frames = 0..self.frames.unwrap_or_default();
+        let moving =
+            |(name, target): &&(Name, Target)| self.is_turn(name, target) && self.is_due(name, target, generation);
         let turn = |(name, target): &(Name, Target)| {
-            frames.clone().map(|frame| target.at(self.path(name, case, generation, frame))).collect()
+            let files = if target.is_film() { 1 } else { self.frames() };
+            (0..files).map(|frame| target.at(self.path(name, case, generation, frame))).collect()
         };
         self.outputs.iter().filter(moving).map(turn).collect()
+    }
+
+    /// In how many pictures to go around a mesh.
+    pub fn frames(&self) -> u32 {
+        self.frames.unwrap_or_default()
+    }
+
+    /// Whether an output goes around a mesh.
+    fn is_turn(&self, name: &Name, target: &Target) -> bool {
+        name.has(FRAME) || target.is_film() && self.frames.is_some()
     }
 
     /// Pictures of several runs or generations.
@@ -211,7 +223,7 @@ impl Plan {
 
     /// The pictures of an output that are of several; where each has a name of its own there are none.
     fn sheets_of(&self, name: &Name, target: &Target) -> Vec<Sheet> {
-        if !target.is_picture() || name.has(FRAME) {
+        if !target.is_picture() || self.is_turn(name, target) {
             return Vec::new();
         }
         let mut by_path: BTreeMap<PathBuf, Vec<Tile>> = BTreeMap::new();
@@ -284,13 +296,13 @@ impl Plan {
     fn check_places(&self) -> Result<(), Box<Diagnostic>> {
         let parameters: Vec<&str> =
             self.cases.all.first().map_or(vec![], |case| case.values.iter().map(|(name, _)| name.as_str()).collect());
-        let moving = |(name, _): &(Name, Target)| name.has(FRAME);
+        let moving = |(name, target): &(Name, Target)| self.is_turn(name, target);
         if self.frames.is_some() && !self.outputs.iter().any(moving) {
             let message = "`--turntable` makes several pictures, and no output has a place for their numbers";
-            return Err(Box::new(error(message).hint("write `-o 'turn_{frame:3}.png'`")));
+            return Err(Box::new(error(message).hint("write `-o 'turn_{frame:3}.png'` or `-o turn.gif`")));
         }
         for (name, target) in &self.outputs {
-            if name.has(FRAME) && (self.frames.is_none() || !target.is_picture()) {
+            if name.has(FRAME) && (self.frames.is_none() || !target.is_picture() || target.is_film()) {
                 let message = format!("`-o {}`: only pictures of a turntable have frames", name.path().display());
                 return Err(Box::new(error(message).hint("add `--turntable 36` and write a `.png`")));
             }
@@ -319,8 +331,13 @@ impl Plan {
         Ok(())
     }
 
-    /// Every file has a name of its own.
+    /// Every file has a name of its own, and in every film something moves.
     fn check_names(&self) -> Result<(), Box<Diagnostic>> {
+        let of_case = |case| self.shown().flat_map(move |generation| self.targets(case, generation));
+        if let Some(still) = self.cases.all.iter().flat_map(of_case).find(Target::is_film) {
+            let diagnostic = error(format!("`-o {}`: nothing moves here", still.path().display()));
+            return Err(Box::new(diagnostic.hint("go around the mesh, `--turntable 36`, or show `--generations 0-3`")));
+        }
         let mut taken: BTreeMap<PathBuf, ()> = BTreeMap::new();
         for target in self.all_targets() {
             if taken.insert(target.path().to_owned(), ()).is_some() {

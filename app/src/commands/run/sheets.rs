@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use app::camera::Camera;
 use app::files::{self, Prepared};
 use app::sheet::{self, Layout};
 
@@ -13,6 +14,12 @@ use super::plan::Sheet;
 
 /// What came out, by number of the run and generation.
 pub type Exhibits = BTreeMap<(usize, u64), Exhibit>;
+
+/// Milliseconds of once around a mesh.
+const TURN: u32 = 6000;
+
+/// Milliseconds for which a film shows a generation, or a value.
+const STILL: u32 = 800;
 
 impl Run<'_> {
     /// Draws all sheets and writes them beside their places. Runs that failed leave a gap; where all did there is no sheet.
@@ -26,8 +33,11 @@ impl Run<'_> {
                 continue;
             }
             self.reporter.progress(format!("drawing {}", sheet.target.path().display()));
-            let picture = self.sheet(sheet, exhibits)?;
-            let bytes = picture::png(&picture, self.reporter)?;
+            let bytes = if sheet.target.is_film() {
+                picture::film(&self.seen(sheet, exhibits, self.shot), self.shot, STILL, self.reporter)?
+            } else {
+                picture::png(&self.sheet(sheet, exhibits)?, self.reporter)?
+            };
             let file = files::prepare(sheet.target.path(), &bytes);
             prepared.push(file.map_err(|error| input::file_failed(&error, self.reporter))?);
         }
@@ -39,9 +49,16 @@ impl Run<'_> {
     /// # Errors
     /// [`Exit::NoRenderer`] or [`Exit::File`]; reported.
     pub fn frames(&self, exhibit: &Exhibit, turn: &[Target]) -> Result<Vec<Prepared>, Exit> {
-        let count = u32::try_from(turn.len()).unwrap_or(u32::MAX);
+        let count = self.plan.frames();
         let seen: Vec<_> =
             picture::around(exhibit, self.shot, count).into_iter().map(|camera| (exhibit, camera)).collect();
+        if let [film] = turn
+            && film.is_film()
+        {
+            let bytes = picture::film(&seen, self.shot, (TURN / count).max(20), self.reporter)?;
+            let file = files::prepare(film.path(), &bytes);
+            return Ok(vec![file.map_err(|error| input::file_failed(&error, self.reporter))?]);
+        }
         let mut prepared = Vec::new();
         let mut targets = turn.iter();
         picture::draw(&seen, self.shot, self.reporter, |picture| {
@@ -73,20 +90,7 @@ impl Run<'_> {
     fn sheet(&self, sheet: &Sheet, exhibits: &Exhibits) -> Result<image::RgbaImage, Exit> {
         let layout = self.layout(sheet)?;
         let shot = Shot { size: layout.tile(), ..self.shot };
-        let found: Vec<_> = sheet.tiles.iter().map(|tile| exhibits.get(&(tile.case, tile.generation))).collect();
-        let mut cameras = BTreeMap::new();
-        for tile in &sheet.tiles {
-            cameras.entry(tile.input).or_insert_with(|| {
-                let same = sheet.tiles.iter().zip(&found).filter(|(other, _)| other.input == tile.input);
-                picture::camera(&same.filter_map(|(_, exhibit)| *exhibit).collect::<Vec<_>>(), shot)
-            });
-        }
-        let seen: Vec<_> = sheet
-            .tiles
-            .iter()
-            .zip(&found)
-            .filter_map(|(tile, exhibit)| Some(((*exhibit)?, *cameras.get(&tile.input)?)))
-            .collect();
+        let seen = self.seen(sheet, exhibits, shot);
         let mut pictures = Vec::new();
         picture::draw(&seen, shot, self.reporter, |picture| {
             pictures.push(picture);
@@ -96,13 +100,30 @@ impl Run<'_> {
         let tiles: Vec<_> = sheet
             .tiles
             .iter()
-            .zip(&found)
-            .map(|(tile, exhibit)| sheet::Tile {
+            .map(|tile| sheet::Tile {
                 label: tile.label.clone(),
-                picture: exhibit.and_then(|_| pictures.next()),
+                picture: exhibits.get(&(tile.case, tile.generation)).and_then(|_| pictures.next()),
             })
             .collect();
         let style = &self.shot.look.style;
         Ok(sheet::compose(&layout, &tiles, style.theme, style.transparent))
+    }
+
+    /// What there is of a sheet, and from where it is seen: all that comes of one mesh from one place.
+    fn seen<'e>(&self, sheet: &Sheet, exhibits: &'e Exhibits, shot: Shot<'_>) -> Vec<(&'e Exhibit, Camera)> {
+        let found: Vec<_> = sheet.tiles.iter().map(|tile| exhibits.get(&(tile.case, tile.generation))).collect();
+        let mut cameras = BTreeMap::new();
+        for tile in &sheet.tiles {
+            cameras.entry(tile.input).or_insert_with(|| {
+                let same = sheet.tiles.iter().zip(&found).filter(|(other, _)| other.input == tile.input);
+                picture::camera(&same.filter_map(|(_, exhibit)| *exhibit).collect::<Vec<_>>(), shot)
+            });
+        }
+        sheet
+            .tiles
+            .iter()
+            .zip(&found)
+            .filter_map(|(tile, exhibit)| Some(((*exhibit)?, *cameras.get(&tile.input)?)))
+            .collect()
     }
 }

@@ -199,5 +199,25 @@ fn frames_need_a_turntable_and_a_turntable_frames() {
     check("run move.vv -i octahedron.obj -o f_{frame}.png", 2, "add `--turntable 36`");
     check("run move.vv -i octahedron.obj --turntable 9 -o f_{frame}.obj", 2, "only pictures of a turntable");
     check("run move.vv -i octahedron.obj --turntable 9 -o f.png", 2, "write `-o 'turn_{frame:3}.png'`");
+    check("run move.vv -i octahedron.obj -o f.gif", 2, "`-o f.gif`: nothing moves here");
+    check("mesh convert octahedron.obj -o f.gif", 2, "`-o f.gif`: nothing moves here");
     check("run move.vv -i octahedron.obj --turntable 1 -o f_{frame}.png", 2, "--turntable");
+}
+
+#[test]
+fn a_film_holds_all_pictures_and_is_the_same_each_time() {
+    use image::AnimationDecoder as _;
+    let folder = Folder::with(&[]);
+    let film = |arguments: &str, name: &str| {
+        folder.check(&format!("run move.vv -i octahedron.obj {arguments} -o {name} --size 60x45"), 0, "");
+        let bytes = fs::read(folder.path(name)).unwrap();
+        let decoder = image::codecs::gif::GifDecoder::new(std::io::Cursor::new(&bytes)).unwrap();
+        let frames = decoder.into_frames().collect_frames().unwrap();
+        assert!(frames.iter().all(|frame| frame.buffer().dimensions() == (60, 45)));
+        (bytes, frames.len())
+    };
+    assert_eq!(film("--turntable 5", "a.gif").1, 5);
+    assert_eq!(film("--generations 0-2", "b.gif").1, 3);
+    assert_eq!(film("-D far=0,1", "c.gif").1, 2);
+    assert_eq!(film("--turntable 5", "d.gif").0, film("--turntable 5", "a.gif").0);
 }
