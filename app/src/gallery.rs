@@ -55,6 +55,12 @@ pub struct Exhibit {
 }
 
 impl Exhibit {
+    /// Whether it is shown on a mesh, and not on its own.
+    #[must_use]
+    pub fn is_of_a_mesh(&self) -> bool {
+        self.mesh.is_some()
+    }
+
     /// A mesh that suits it.
     #[must_use]
     pub fn mesh(&self) -> MeshSource {

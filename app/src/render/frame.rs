@@ -243,7 +243,6 @@ pub(super) fn layers(scene: &Uploaded, style: &Style, arrow: f32, scale: f32) ->
         spacing: spacing(&scene.control),
         strong_from: scene.control.as_ref().map_or(0, |p| p.inner_edge_count),
         lonely_count: scene.control.as_ref().map_or(0, |p| p.lonely_count),
-        faintest: FAINTEST,
         ..mesh
     };
     let arrows = Layer {

@@ -25,6 +25,8 @@ impl Session {
             self.document.generation = 0; // who knows how large it is
             return;
         }
+        // What grows from a mesh of its own is not shaped by it: it would only stand in the way.
+        self.document.style.control = exhibit.is_of_a_mesh();
         self.document.mesh = exhibit.mesh();
         self.document.generation = exhibit.generation;
         self.mesh_chosen = false;
