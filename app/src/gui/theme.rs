@@ -49,8 +49,6 @@ fn fonts_and_distances(style: &mut Style) {
     spacing.window_margin = Margin::same(14);
     spacing.slider_rail_height = 4.0;
     spacing.tooltip_width = 420.0;
-    // Bars stand beside what is scrolled, not over its right end.
-    spacing.scroll.floating_allocated_width = 7.0;
 }
 
 /// Sets the height of the program's letters.
