@@ -11,7 +11,7 @@ use vv::mesh::isomorphism::isomorphism;
 use vv::mesh::statistics::{Statistics, statistics};
 use vv::stop::{Stop, Stopped};
 
-use super::info::json;
+use super::info::{counts, json};
 use super::report::{Reporter, write_stdout};
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input};
 
@@ -81,38 +81,24 @@ pub fn diff(arguments: &Arguments) -> Result<(), Exit> {
 
 fn compare(a: &Mesh, b: &Mesh, tolerance: f64, stop: &Stop) -> Result<Comparison, Stopped> {
     let of = |mesh: &Mesh| statistics(mesh, &faces(mesh, stop)?, stop);
-    let counts = differing(&of(a)?, &of(b)?);
-    let found = if counts.is_empty() { isomorphism(a, b, tolerance, false, stop)? } else { None };
+    let differing = differing(&of(a)?, &of(b)?);
+    let found = if differing.is_empty() { isomorphism(a, b, tolerance, false, stop)? } else { None };
     let farthest = found.as_ref().and_then(|found| found.farthest);
     let image = farthest.and_then(|(v, _)| found.as_ref()?.images[v.index()]);
     let same = found.is_some() && farthest.is_none_or(|(_, distance)| distance <= tolerance);
-    let turned = found.is_none() && counts.is_empty() && isomorphism(a, b, tolerance, true, stop)?.is_some();
+    let turned = found.is_none() && differing.is_empty() && isomorphism(a, b, tolerance, true, stop)?.is_some();
     Ok(Comparison {
         same,
         same_connectivity: found.is_some(),
         same_inside_out: turned,
         distance: farthest.map(|(_, distance)| distance),
         vertices: farthest.zip(image).map(|((v, _), image)| [v.index() + 1, image.index() + 1]),
-        counts,
+        counts: differing,
     })
 }
 
 fn differing(a: &Statistics, b: &Statistics) -> Vec<Count> {
-    let pairs = |pairs: &[(usize, usize)]| {
-        pairs.iter().map(|(what, count)| format!("{what}: {count}")).collect::<Vec<_>>().join(", ")
-    };
-    let rows = |s: &Statistics| {
-        [
-            ("vertices", s.vertices.to_string()),
-            ("edges", s.edges.to_string()),
-            ("faces", s.faces.to_string()),
-            ("face degrees", pairs(&s.face_degrees)),
-            ("valences", pairs(&s.valences)),
-            ("components", s.components.to_string()),
-            ("boundary loops", s.boundary_loops.to_string()),
-        ]
-    };
-    let both = rows(a).into_iter().zip(rows(b));
+    let both = counts(a).into_iter().zip(counts(b));
     both.filter(|(a, b)| a.1 != b.1).map(|((of, a), (_, b))| Count { of, a, b }).collect()
 }
 

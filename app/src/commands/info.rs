@@ -93,24 +93,31 @@ pub fn json(object: &impl Serialize) -> String {
     serde_json::to_string_pretty(object).unwrap_or_default() + "\n"
 }
 
-fn table(Info { statistics, bounds, properties, .. }: &Info) -> String {
-    let counts = |pairs: &[(usize, usize)]| {
+/// What is counted, each with its name.
+pub fn counts(statistics: &Statistics) -> [(&'static str, String); 7] {
+    let pairs = |pairs: &[(usize, usize)]| {
         pairs.iter().map(|(what, count)| format!("{what}: {count}")).collect::<Vec<_>>().join(", ")
     };
-    let yes = |yes| if yes { "yes" } else { "no" }.to_owned();
-    let mut rows = vec![
+    [
         ("vertices", statistics.vertices.to_string()),
         ("edges", statistics.edges.to_string()),
         ("faces", statistics.faces.to_string()),
-        ("face degrees", counts(&statistics.face_degrees)),
-        ("valences", counts(&statistics.valences)),
+        ("face degrees", pairs(&statistics.face_degrees)),
+        ("valences", pairs(&statistics.valences)),
         ("components", statistics.components.to_string()),
         ("boundary loops", statistics.boundary_loops.to_string()),
+    ]
+}
+
+fn table(Info { statistics, bounds, properties, .. }: &Info) -> String {
+    let yes = |yes| if yes { "yes" } else { "no" }.to_owned();
+    let mut rows = counts(statistics).to_vec();
+    rows.extend([
         ("Euler characteristic", statistics.euler_characteristic.to_string()),
         ("genus", statistics.genus.map_or_else(|| "undefined".to_owned(), |genus| genus.to_string())),
         ("closed", yes(statistics.closed)),
         ("valid", yes(statistics.valid)),
-    ];
+    ]);
     if let Some(bounds) = bounds {
         let [least, greatest] = bounds.map(|[x, y, z]| format!("({x}, {y}, {z})"));
         rows.push(("bounds", format!("{least} to {greatest}")));
