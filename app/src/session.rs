@@ -5,6 +5,7 @@
 
 mod beside;
 mod coloring;
+mod dialog;
 mod files;
 mod generations;
 mod inspecting;
@@ -43,7 +44,8 @@ use crate::worker::{Frame, Request, Ticket, Worker};
 use crate::{evaluation, library};
 
 pub use beside::Beside;
-use files::{Chooser, is_program, is_project};
+pub use dialog::{Dialog, Purpose};
+use files::{Chooser, is_project};
 pub use inspecting::{Fault, Inspection, Walking};
 pub use problem::{Place, Problem, Problems};
 pub use undo::changed;
@@ -58,85 +60,6 @@ const NOTICE: Duration = Duration::from_secs(6);
 
 /// How many there were.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);
-
-/// What a file is chosen for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
-    /// To open a program.
-    OpenProgram,
-    /// To open a mesh.
-    OpenMesh,
-    /// To save the program.
-    SaveProgram,
-    /// To save the mesh.
-    ExportMesh,
-    /// To open a project.
-    OpenProject,
-    /// To save a project.
-    SaveProject,
-    /// To save what is seen.
-    SavePicture,
-}
-
-/// A question to the user.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Dialog {
-    /// Save the program before `then`, which would lose its text?
-    Unsaved {
-        /// What comes after.
-        then: Box<Command>,
-    },
-    /// Where no file dialog opens: the path, please.
-    TypePath {
-        /// What for.
-        purpose: Purpose,
-        /// As typed so far.
-        path: String,
-    },
-    /// A window crashed; bring back what was unsaved in it?
-    Recover {
-        /// What the program is called.
-        name: String,
-    },
-    /// Which command?
-    Palette {
-        /// As typed so far.
-        query: String,
-        /// Which of those that fit.
-        selected: usize,
-    },
-    /// Which vertices?
-    SelectVertex {
-        /// As typed so far.
-        text: String,
-    },
-    /// Which program?
-    Gallery {
-        /// As typed so far.
-        query: String,
-        /// Which of [`crate::gallery::EXHIBITS`].
-        selected: usize,
-        /// Whether the mesh that is open stays.
-        keep_mesh: bool,
-    },
-    /// How shall vv be?
-    Preferences,
-    /// How shall the picture be?
-    Picture,
-    /// All keys.
-    CheatSheet {
-        /// As typed so far.
-        query: String,
-    },
-}
-
-impl Dialog {
-    /// The gallery, as it opens.
-    #[must_use]
-    pub fn gallery() -> Self {
-        Self::Gallery { query: String::new(), selected: 0, keep_mesh: true }
-    }
-}
 
 /// Why what is shown is not what is wanted.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -411,52 +334,24 @@ impl Session {
     fn carry_out(&mut self, command: Command) {
         let generation = self.document.generation;
         match command {
-            Command::NewProgram => self.unless_unsaved(command, |s| {
-                s.set_program(ProgramText::new("untitled.vv", ""));
-                s.document.generation = 0; // what has no rule has no steps
-            }),
-            Command::Choose(purpose) => self.choose(purpose),
-            Command::Open(ref path) if is_program(path) => {
-                let path = path.clone();
-                self.unless_unsaved(command, |s| s.open_program(&path));
-            }
-            Command::Open(ref path) if is_project(path) => {
-                let path = path.clone();
-                self.unless_unsaved(command, |s| s.open_project(&path));
-            }
-            Command::Open(path) => self.use_mesh(MeshSource::File(path)),
-            Command::OpenExample(name) => self.unless_unsaved(command, |s| {
-                if let Some(example) = library::program(name) {
-                    s.set_program(ProgramText::new(example.name, example.text));
-                }
-            }),
-            Command::Exhibit { program, keep_mesh } => {
-                self.unless_unsaved(command, |s| s.show_exhibit(program, keep_mesh));
-            }
-            Command::UseMesh(source) => self.use_mesh(source),
-            Command::Save => self.save(),
-            Command::SaveTo(path) => self.save_to(&path),
-            Command::ExportTo(path) => self.export_to(path),
-            Command::PictureTo(path) => self.picture_to(path),
-            Command::TakeFromDisk => {
-                if let Some(text) = self.text_on_disk.take() {
-                    self.document.program.saved = Arc::clone(&text);
-                    self.document.program.text = text;
-                    self.text_was_saved();
-                    self.ask_now();
-                }
-            }
-            Command::KeepMine => {
-                if let Some(text) = self.text_on_disk.take() {
-                    self.document.program.saved = text;
-                }
-            }
-            Command::AnswerRecovery(take) => self.answer_recovery(take),
-            Command::ForgetRecent => self.recent.clear(),
-            Command::AnswerUnsaved(answer) => self.answer_unsaved(answer),
+            Command::NewProgram
+            | Command::Choose(_)
+            | Command::Open(_)
+            | Command::OpenExample(_)
+            | Command::Exhibit { .. }
+            | Command::UseMesh(_)
+            | Command::Save
+            | Command::SaveTo(_)
+            | Command::ExportTo(_)
+            | Command::PictureTo(_)
+            | Command::TakeFromDisk
+            | Command::KeepMine
+            | Command::AnswerRecovery(_)
+            | Command::ForgetRecent
+            | Command::AnswerUnsaved(_)
+            | Command::Quit => self.change_files(command),
             // A text that nobody has said anything about is kept.
             Command::CloseDialog => self.dialog = None,
-            Command::Quit => self.unless_unsaved(command, Self::quit),
 
             Command::Undo => self.undo(),
             Command::Redo => self.redo(),

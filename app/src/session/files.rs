@@ -11,8 +11,8 @@ use vv::io::Format;
 use super::{Dialog, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
-use crate::files;
 use crate::project::{self, Project};
+use crate::{files, library};
 
 /// A file dialog that is gone sooner than this was never there.
 const NO_DIALOG: Duration = Duration::from_millis(1000);
@@ -25,6 +25,57 @@ pub(super) struct Chooser {
 }
 
 impl Session {
+    /// Carries out what concerns files, and what takes the place of the work that is open.
+    pub(super) fn change_files(&mut self, command: Command) {
+        match command {
+            Command::NewProgram => self.unless_unsaved(command, |s| {
+                s.set_program(ProgramText::new("untitled.vv", ""));
+                s.document.generation = 0; // what has no rule has no steps
+            }),
+            Command::Choose(purpose) => self.choose(purpose),
+            Command::Open(ref path) if is_program(path) => {
+                let path = path.clone();
+                self.unless_unsaved(command, |s| s.open_program(&path));
+            }
+            Command::Open(ref path) if is_project(path) => {
+                let path = path.clone();
+                self.unless_unsaved(command, |s| s.open_project(&path));
+            }
+            Command::Open(path) => self.use_mesh(MeshSource::File(path)),
+            Command::OpenExample(name) => self.unless_unsaved(command, |s| {
+                if let Some(example) = library::program(name) {
+                    s.set_program(ProgramText::new(example.name, example.text));
+                }
+            }),
+            Command::Exhibit { program, keep_mesh } => {
+                self.unless_unsaved(command, |s| s.show_exhibit(program, keep_mesh));
+            }
+            Command::UseMesh(source) => self.use_mesh(source),
+            Command::Save => self.save(),
+            Command::SaveTo(path) => self.save_to(&path),
+            Command::ExportTo(path) => self.export_to(path),
+            Command::PictureTo(path) => self.picture_to(path),
+            Command::TakeFromDisk => {
+                if let Some(text) = self.text_on_disk.take() {
+                    self.document.program.saved = Arc::clone(&text);
+                    self.document.program.text = text;
+                    self.text_was_saved();
+                    self.ask_now();
+                }
+            }
+            Command::KeepMine => {
+                if let Some(text) = self.text_on_disk.take() {
+                    self.document.program.saved = text;
+                }
+            }
+            Command::AnswerRecovery(take) => self.answer_recovery(take),
+            Command::ForgetRecent => self.recent.clear(),
+            Command::AnswerUnsaved(answer) => self.answer_unsaved(answer),
+            Command::Quit => self.unless_unsaved(command, Self::quit),
+            _ => {}
+        }
+    }
+
     pub(super) fn unless_unsaved(&mut self, command: Command, action: impl FnOnce(&mut Self)) {
         if self.would_lose() {
             self.dialog = Some(Dialog::Unsaved { then: Box::new(command) });

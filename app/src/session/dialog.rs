@@ -1,0 +1,82 @@
+//! The questions to the user.
+
+use crate::command::Command;
+
+/// What a file is chosen for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// To open a program.
+    OpenProgram,
+    /// To open a mesh.
+    OpenMesh,
+    /// To save the program.
+    SaveProgram,
+    /// To save the mesh.
+    ExportMesh,
+    /// To open a project.
+    OpenProject,
+    /// To save a project.
+    SaveProject,
+    /// To save what is seen.
+    SavePicture,
+}
+
+/// A question to the user.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Dialog {
+    /// Save the program before `then`, which would lose its text?
+    Unsaved {
+        /// What comes after.
+        then: Box<Command>,
+    },
+    /// Where no file dialog opens: the path, please.
+    TypePath {
+        /// What for.
+        purpose: Purpose,
+        /// As typed so far.
+        path: String,
+    },
+    /// A window crashed; bring back what was unsaved in it?
+    Recover {
+        /// What the program is called.
+        name: String,
+    },
+    /// Which command?
+    Palette {
+        /// As typed so far.
+        query: String,
+        /// Which of those that fit.
+        selected: usize,
+    },
+    /// Which vertices?
+    SelectVertex {
+        /// As typed so far.
+        text: String,
+    },
+    /// Which program?
+    Gallery {
+        /// As typed so far.
+        query: String,
+        /// Which of [`crate::gallery::EXHIBITS`].
+        selected: usize,
+        /// Whether the mesh that is open stays.
+        keep_mesh: bool,
+    },
+    /// How shall vv be?
+    Preferences,
+    /// How shall the picture be?
+    Picture,
+    /// All keys.
+    CheatSheet {
+        /// As typed so far.
+        query: String,
+    },
+}
+
+impl Dialog {
+    /// The gallery, as it opens.
+    #[must_use]
+    pub fn gallery() -> Self {
+        Self::Gallery { query: String::new(), selected: 0, keep_mesh: true }
+    }
+}
