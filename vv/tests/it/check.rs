@@ -7,6 +7,7 @@ mod listings;
 mod messages;
 mod mutations;
 mod names;
+mod rings;
 
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::{Compilation, Included, compile};
