@@ -7,6 +7,7 @@ mod fmt;
 mod guard;
 mod info;
 mod input;
+mod interrupt;
 mod look;
 mod lsp;
 mod mask;
@@ -19,6 +20,7 @@ mod report;
 mod run;
 mod shell;
 mod view;
+mod watch;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -46,11 +48,19 @@ Examples:
   vv bunny.obj loop.vv                        open it with a mesh and a program
   vv run loop.vv -i bunny.obj -n 2 -o out.obj -o out.png
   vv run loop.vv -i bunny.obj -n 2 -o side.png --view right
+  vv watch loop.vv -i bunny.obj -n 2 -o out.png
   vv check *.vv
   vv fmt --check *.vv
   vv mesh info bunny.obj
   vv mesh convert bunny.obj -o bunny.off
   vv mesh diff before.obj after.obj
+
+";
+
+const WATCH_EXAMPLES: &str = "\
+Examples:
+  vv watch loop.vv -i bunny.obj -n 2 -o fine.obj -o fine.svg
+  vv watch terrain.vv -D roughness=0.3:0.8:6 -o sheet.png
 
 ";
 
@@ -80,6 +90,13 @@ enum Command {
     /// program prints goes to stdout, errors and warnings go to stderr. Outputs are written when everything has
     /// succeeded, each of them whole; a failed run writes none.
     Run(run::Arguments),
+    /// Run a program, and again whenever it or another file that it needs changes.
+    ///
+    /// As `vv run`, with its options. Says in one line what was made, or what is wrong, and waits until the program, an
+    /// included one, the mesh, or a file named by `--style`, `--view` or `--reference` has another content; what is still
+    /// being made then is stopped. Ends when it is interrupted, with Ctrl+C.
+    #[command(after_help = format!("{WATCH_EXAMPLES}{EXIT_CODES}"))]
+    Watch(run::Arguments),
     /// Check programs for errors without running them.
     ///
     /// Finds what `vv run` would find before it runs them. Says nothing about programs without fault.
@@ -182,9 +199,13 @@ enum Exit {
 pub fn main() -> ExitCode {
     let began = Instant::now();
     let cli = Cli::parse();
+    if cli.command.is_some() {
+        interrupt::leave_nothing_behind();
+    }
     let result = match cli.command {
         None => open::open(&cli.files, cli.view.as_deref()),
         Some(Command::Run(arguments)) => run::run(&arguments, began),
+        Some(Command::Watch(arguments)) => watch::watch(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),
         Some(Command::Mask(arguments)) => mask::mask(&arguments),

@@ -3,6 +3,7 @@
 //! The command line calls it on the main thread, the window on the worker's.
 
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
@@ -89,9 +90,43 @@ pub fn machine_limits() -> Limits {
     }
 }
 
+/// By which somebody else ends a run of many pieces of work, each with a flag of its own. Clones are the same.
+#[derive(Debug, Clone, Default)]
+pub struct Halt(Arc<Mutex<(bool, Stop)>>);
+
+impl Halt {
+    /// Stops what is under way, and all that comes after it.
+    pub fn request(&self) {
+        let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        state.0 = true;
+        state.1.request(Stopped::ByUser);
+    }
+
+    /// Whether that was asked for.
+    #[must_use]
+    pub fn is_requested(&self) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    /// The flag of the next piece of work.
+    fn next(&self) -> Stop {
+        let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        state.1 = Stop::new();
+        if state.0 {
+            state.1.request(Stopped::ByUser);
+        }
+        state.1.clone()
+    }
+}
+
 /// Does `work` with a flag that is set when `limit` is over; `None` gives it all the time it takes.
 pub fn within<T>(limit: Option<Duration>, work: impl FnOnce(&Stop) -> T) -> T {
-    let stop = Stop::new();
+    within_halted(limit, &Halt::default(), work)
+}
+
+/// As [`within`]; the flag is also set when `halt` is requested.
+pub fn within_halted<T>(limit: Option<Duration>, halt: &Halt, work: impl FnOnce(&Stop) -> T) -> T {
+    let stop = halt.next();
     let Some(limit) = limit else { return work(&stop) };
     let (done, ended) = channel::<()>();
     std::thread::scope(|threads| {
@@ -129,6 +164,21 @@ mod tests {
         let began = Instant::now();
         assert_eq!(within(Some(Duration::from_secs(3600)), Stop::check), Ok(()));
         assert!(began.elapsed() < Duration::from_secs(5));
+    }
+
+    #[test]
+    fn a_halt_stops_what_is_under_way_and_what_comes_after_it() {
+        let halt = Halt::default();
+        let other = halt.clone();
+        let limit = Some(Duration::from_secs(3600));
+        let stopped = within_halted(limit, &halt, |stop| {
+            assert_eq!(stop.check(), Ok(()));
+            other.request();
+            stop.check()
+        });
+        assert_eq!(stopped, Err(Stopped::ByUser));
+        assert_eq!(within_halted(None, &halt, Stop::check), Err(Stopped::ByUser));
+        assert!(halt.is_requested());
     }
 
     #[test]

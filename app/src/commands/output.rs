@@ -109,6 +109,11 @@ impl OutputArguments {
         self.view.as_deref().map(|given| view::read(given, reporter)).transpose()
     }
 
+    /// The file that says from where pictures look, if one does.
+    pub fn view_file(&self) -> Option<PathBuf> {
+        self.view.as_ref().map(PathBuf::from).filter(|path| path.is_file())
+    }
+
     /// What to write, checked: formats are known and each place can be written to.
     ///
     /// # Errors

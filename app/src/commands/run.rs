@@ -8,11 +8,13 @@ mod sheets;
 mod steps;
 mod summary;
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use app::evaluation::machine_limits;
+use app::evaluation::{Halt, machine_limits};
 use app::files::{self, Prepared};
 use clap::{Args, ValueEnum};
 use image::RgbaImage;
@@ -30,7 +32,10 @@ use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::picture::{self, Exhibit, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
-use super::{EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output, warnings_of};
+use super::{
+    DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output,
+    warnings_of,
+};
 use cases::Case;
 use plan::{Given, Plan};
 use sheets::Exhibits;
@@ -57,7 +62,7 @@ Examples:
 #[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
 pub struct Arguments {
     /// The program; `-` is stdin.
-    program: PathBuf,
+    pub program: PathBuf,
     /// What is no option and no program: the mesh, where `-i` was forgotten.
     #[arg(hide = true)]
     others: Vec<PathBuf>,
@@ -124,16 +129,73 @@ enum EngineChoice {
 
 /// Runs the program; `began` is when the process did.
 pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
+    make(arguments, began, &Way::default()).map(drop)
+}
+
+/// How a run is made that is one of many.
+#[derive(Debug, Default)]
+pub struct Way {
+    /// Ends it.
+    pub halt: Halt,
+    /// Files that may not be written.
+    pub read_only: Vec<PathBuf>,
+    /// Whether what came out is counted.
+    pub counting: bool,
+    /// Becomes true when stdout takes no more.
+    pub closed: AtomicBool,
+}
+
+impl Arguments {
+    /// The files that are read, there or not.
+    pub fn read(&self) -> Vec<PathBuf> {
+        let looked_at = match files::is_standard_stream(&self.program) {
+            true => Vec::new(),
+            false => files::compile(&self.program, &files::read_program(&self.program).unwrap_or_default()).1,
+        };
+        let view = self.output.view_file();
+        let others = self.input.iter().chain(&self.reference).chain(view.as_ref());
+        [&self.program].into_iter().chain(others).cloned().chain(looked_at).collect()
+    }
+
+    /// How errors are written.
+    pub fn diagnostic_format(&self) -> DiagnosticFormat {
+        self.reporting.diagnostic_format
+    }
+
+    /// Whether stdout takes the outputs.
+    pub fn to_stdout(&self) -> bool {
+        self.output.to_stdout()
+    }
+
+    /// Whether stdout takes the summary.
+    pub fn has_summary(&self) -> bool {
+        self.summary.is_some()
+    }
+}
+
+/// What a run has made.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tally {
+    /// Runs that ended well.
+    pub runs: usize,
+    /// Files.
+    pub files: usize,
+    /// Vertices, edges and faces of the last result, if they were to be counted.
+    pub counts: Option<[usize; 3]>,
+}
+
+/// Runs the program and says what was made.
+pub fn make(arguments: &Arguments, began: Instant, way: &Way) -> Result<Tally, Exit> {
     if arguments.reference.as_deref().is_some_and(is_picture) {
         picture::keep_driver_quiet();
     }
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
-    let result = run_reported(arguments, began, &reporter);
+    let result = run_reported(arguments, began, way, &reporter);
     reporter.end();
     result
 }
 
-fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> Result<(), Exit> {
+fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Reporter) -> Result<Tally, Exit> {
     check_streams(arguments, reporter)?;
     let viewpoint = arguments.output.viewpoint(reporter)?;
     let outputs = arguments.output.formats(reporter)?;
@@ -168,6 +230,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
     if arguments.reference.is_some() && plan.has_many() {
         return fail(reporter, Exit::Usage, error("`--reference` compares one result, and here are several"));
     }
+    not_read(&plan, &way.read_only).map_err(usage)?;
     output::check_places(&plan.all_targets(), reporter)?;
     let reference = arguments.reference.as_deref().map(|path| Reference::read(path, &arguments.importing, reporter));
     let reference = reference.transpose()?;
@@ -184,6 +247,7 @@ fn run_reported(arguments: &Arguments, began: Instant, reporter: &Reporter) -> R
         reference,
         warnings: warnings_of(&found),
         began,
+        way,
         reporter,
     };
     let mut sheets = plan.sheets().iter().filter(|sheet| !sheet.target.is_film());
@@ -205,6 +269,7 @@ struct Run<'a> {
     /// What was warned of in the program.
     warnings: Vec<String>,
     began: Instant,
+    way: &'a Way,
     reporter: &'a Reporter,
 }
 
@@ -229,8 +294,8 @@ struct Made {
 impl Run<'_> {
     /// Each on its own: a failure in one ends with its exit code when all others are done. Where nobody listens any more,
     /// or nothing can be drawn, the others would fare no better.
-    fn all(&self, timings: &Timings) -> Result<(), Exit> {
-        let mut result = Ok(());
+    fn all(&self, timings: &Timings) -> Result<Tally, Exit> {
+        let (mut result, mut tally) = (Ok(()), Tally::default());
         let mut exhibits = Exhibits::new();
         let mut loaded: Option<(usize, Result<Loaded, Exit>)> = None;
         let to_stderr = self.arguments.output.to_stdout() || self.arguments.summary.is_some();
@@ -240,19 +305,31 @@ impl Run<'_> {
                 loaded = Some((case.input, self.load(case.input)));
             }
             let ended = match &loaded {
-                Some((_, Ok(loaded))) => self.one(case, loaded, timings.clone(), &mut printer, &mut exhibits),
+                Some((_, Ok(loaded))) => {
+                    self.one(case, loaded, timings.clone(), &mut printer, &mut exhibits, &mut tally)
+                }
                 Some((_, Err(exit))) => Err(*exit),
                 None => Ok(()),
             };
+            self.way.closed.store(printer.is_closed(), Ordering::Relaxed);
             if ended == Err(Exit::NoRenderer) || printer.is_closed() {
-                return ended;
+                return ended.map(|()| tally);
             }
+            self.go_on()?;
             result = result.and(ended);
         }
         if self.plan.cases().len() > 1 {
-            result = result.and(self.sheets(&exhibits).and_then(|sheets| output::commit(sheets, self.reporter)));
+            result = result.and(self.sheets(&exhibits).and_then(|sheets| self.commit(sheets, &mut tally)));
         }
-        result
+        result.map(|()| tally)
+    }
+
+    fn commit(&self, prepared: Vec<Prepared>, tally: &mut Tally) -> Result<(), Exit> {
+        self.go_on()?;
+        let files = prepared.len();
+        output::commit(prepared, self.reporter)?;
+        tally.files += files;
+        Ok(())
     }
 
     fn load(&self, input: usize) -> Result<Loaded, Exit> {
@@ -276,6 +353,7 @@ impl Run<'_> {
         timings: Timings,
         printer: &mut Printer,
         exhibits: &mut Exhibits,
+        tally: &mut Tally,
     ) -> Result<(), Exit> {
         let mut made = Made::default();
         let state = State {
@@ -288,10 +366,12 @@ impl Run<'_> {
         if self.plan.cases().len() == 1 {
             made.prepared.extend(self.sheets(&made.exhibits)?);
         }
+        let counts = if self.way.counting { Some(self.count(&state.mesh)?) } else { None };
         if !made.summaries.is_empty() {
             write_stdout(made.summaries.as_bytes(), self.reporter).inspect_err(|_| printer.close())?;
         }
-        output::commit(made.prepared, self.reporter)?;
+        self.commit(made.prepared, tally)?;
+        (tally.runs, tally.counts) = (tally.runs + 1, counts);
         exhibits.append(&mut made.exhibits);
         match &self.reference {
             Some(reference) => {
@@ -300,6 +380,12 @@ impl Run<'_> {
             }
             None => Ok(()),
         }
+    }
+
+    fn count(&self, mesh: &Mesh) -> Result<[usize; 3], Exit> {
+        let faces = self.in_time("finding the faces", |stop| faces(mesh, stop))?;
+        let found = self.in_time("counting", |stop| statistics(mesh, &faces, stop))?;
+        Ok([found.vertices, found.edges, found.faces])
     }
 
     /// Makes of a generation what is asked for.
@@ -382,6 +468,19 @@ fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit>
         return fail(reporter, Exit::Usage, error("`--summary json` and `-o -` both need stdout for themselves"));
     }
     Ok(())
+}
+
+/// What is read anew whenever it has changed must not be written by that.
+fn not_read(plan: &Plan, read_only: &[PathBuf]) -> Result<(), Box<Diagnostic>> {
+    let place = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
+    let read: BTreeSet<_> = read_only.iter().filter_map(|path| place(path)).collect();
+    match plan.all_targets().iter().find(|target| place(target.path()).is_some_and(|path| read.contains(&path))) {
+        Some(both) if !read.is_empty() => {
+            let message = format!("{} is read and written, so there would be no end of it", both.path().display());
+            Err(Box::new(error(message)))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Which rule to apply how often; `None` if the program has only `start`.

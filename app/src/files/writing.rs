@@ -1,8 +1,10 @@
 //! Writing whole or not at all: into a temporary file beside the destination, then rename.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, Permissions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
@@ -18,7 +20,7 @@ pub struct Prepared {
 #[derive(Debug)]
 enum Target {
     /// A file, already whole under another name.
-    File { temporary: NamedTempFile, destination: PathBuf },
+    File { temporary: Temporary, destination: PathBuf },
     /// Standard output, a device or a pipe: cannot be renamed over.
     Stream(Vec<u8>),
 }
@@ -62,9 +64,7 @@ pub fn commit(prepared: Vec<Prepared>) -> Result<(), FileError> {
                 out.write_all(&bytes).and_then(|()| out.flush())
             }
             Target::Stream(bytes) => OpenOptions::new().write(true).open(&path).and_then(|mut f| f.write_all(&bytes)),
-            Target::File { temporary, destination } => {
-                temporary.persist(destination).map(drop).map_err(|error| error.error)
-            }
+            Target::File { temporary, destination } => temporary.persist(&destination),
         };
         result.map_err(|error| {
             let path = if is_standard_stream(&path) { Path::new("<stdout>") } else { &path };
@@ -72,6 +72,60 @@ pub fn commit(prepared: Vec<Prepared>) -> Result<(), FileError> {
         })?;
     }
     Ok(())
+}
+
+/// The temporary files that exist now.
+static TEMPORARIES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Takes away what is half written. For a process that is about to end and unwinds nothing: whoever writes a file from
+/// now on waits for ever.
+pub fn abandon() {
+    let temporaries = temporaries();
+    for path in &*temporaries {
+        let _ = fs::remove_file(path);
+    }
+    std::mem::forget(temporaries);
+}
+
+fn temporaries() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A temporary file that [`abandon`] knows of.
+#[derive(Debug)]
+struct Temporary(Option<NamedTempFile>);
+
+impl Temporary {
+    /// In a folder; becomes an ordinary file: with the permissions a new one gets.
+    fn create(folder: &Path) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".vv-").suffix(".tmp");
+        #[cfg(unix)]
+        builder.permissions(<Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
+        let mut temporaries = temporaries();
+        let file = builder.tempfile_in(folder)?;
+        temporaries.insert(file.path().to_owned());
+        Ok(Self(Some(file)))
+    }
+
+    fn file(&mut self) -> io::Result<&mut File> {
+        self.0.as_mut().map(NamedTempFile::as_file_mut).ok_or_else(|| ErrorKind::NotFound.into())
+    }
+
+    fn persist(mut self, destination: &Path) -> io::Result<()> {
+        let mut temporaries = temporaries();
+        let Some(file) = self.0.take() else { return Ok(()) };
+        temporaries.remove(file.path());
+        file.persist(destination).map(drop).map_err(|error| error.error)
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if let Some(file) = self.0.take() {
+            temporaries().remove(file.path());
+        }
+    }
 }
 
 /// Errors come with the place they are about.
@@ -94,8 +148,8 @@ fn target(path: &Path, bytes: &[u8]) -> Result<Target, (PathBuf, io::Error)> {
         _ => Path::new("."),
     };
     let at_folder = |error| (folder.to_owned(), error);
-    let mut temporary = create_beside(folder).map_err(at_folder)?;
-    let file: &mut File = temporary.as_file_mut();
+    let mut temporary = Temporary::create(folder).map_err(at_folder)?;
+    let file = temporary.file().map_err(at_folder)?;
     file.write_all(bytes).map_err(at_file)?;
     if let Some(permissions) = existing {
         file.set_permissions(permissions).map_err(at_file)?;
@@ -121,15 +175,6 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
         path = path.parent().unwrap_or(Path::new("")).join(link);
     }
     Err(io::Error::other("too many links lead on from each other"))
-}
-
-/// A temporary file that becomes an ordinary one: with the permissions a new file gets.
-fn create_beside(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".vv-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(<Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
-    builder.tempfile_in(folder)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ mod references;
 mod several;
 mod summary;
 mod usage;
+mod watching;
 mod window;
 
 use std::fs;

@@ -62,6 +62,7 @@ impl Run<'_> {
         let mut prepared = Vec::new();
         let mut targets = turn.iter();
         picture::draw(&seen, self.shot, self.reporter, |picture| {
+            self.go_on()?;
             let Some(target) = targets.next() else { return Ok(()) };
             self.reporter.progress(format!("drawing {}", target.path().display()));
             let bytes = picture::png(&picture, self.reporter)?;
@@ -94,7 +95,7 @@ impl Run<'_> {
         let mut pictures = Vec::new();
         picture::draw(&seen, shot, self.reporter, |picture| {
             pictures.push(picture);
-            Ok(())
+            self.go_on()
         })?;
         let mut pictures = pictures.into_iter();
         let tiles: Vec<_> = sheet

@@ -1,6 +1,6 @@
 //! The generations of one run.
 
-use app::evaluation::{self, Generation, within};
+use app::evaluation::{self, Generation, within_halted};
 use app::inspect::lineage::Survivors;
 use vv::diagnostic::Diagnostic;
 use vv::engine::{Failure, FailureKind, Settings};
@@ -79,10 +79,11 @@ impl Run<'_> {
         printer: &mut Printer,
         make: impl FnOnce(&Settings, &mut Printer) -> Result<Generation, Failure>,
     ) -> Result<Generation, Exit> {
-        let result = within(self.arguments.importing.timeout.0, |stop| {
+        let result = within_halted(self.arguments.importing.timeout.0, &self.way.halt, |stop| {
             make(&Settings { stop: stop.clone(), ..settings.clone() }, printer)
         });
         let flushed = printer.flush(self.reporter);
+        self.go_on()?;
         match result {
             Err(failure) if failure.kind == FailureKind::OutputClosed => Err(flushed.err().unwrap_or(Exit::File)),
             Err(failure) => {
@@ -118,13 +119,23 @@ impl Run<'_> {
         warnings_of(&warnings)
     }
 
+    /// Whether what is being made is still wanted.
+    ///
+    /// # Errors
+    /// If it is not. Whoever does not want it knows: nothing is reported.
+    pub fn go_on(&self) -> Result<(), Exit> {
+        if self.way.halt.is_requested() { Err(Exit::Budget) } else { Ok(()) }
+    }
+
     /// Does something in the time a step has.
     ///
     /// # Errors
     /// [`Exit::Budget`], reported.
     pub fn in_time<T>(&self, what: &str, work: impl FnOnce(&Stop) -> Result<T, vv::stop::Stopped>) -> Result<T, Exit> {
         self.reporter.progress(what.to_owned());
-        within(self.arguments.importing.timeout.0, work).map_err(|stopped| {
+        let result = within_halted(self.arguments.importing.timeout.0, &self.way.halt, work);
+        self.go_on()?;
+        result.map_err(|stopped| {
             let diagnostic = error(stopped.to_string())
                 .evidence(format!("this was while {what}"))
                 .hint("allow more time with `--timeout SECONDS`");
