@@ -123,3 +123,23 @@ fn a_mesh_without_vertices_is_not_written() {
     check_file("p.vv", text, "run p.vv -i square.off -o a.obj", 1, "no vertices left");
     check_file("p.vv", text, "run p.vv -i square.off --summary json", 0, "");
 }
+
+/// A pipe without reader holds the run up when all outputs are written under other names.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_nothing_behind() {
+    use std::os::unix::process::ExitStatusExt as _;
+    let folder = Folder::with(&[("old.obj", "old")]);
+    assert!(Command::new("mkfifo").arg(folder.path("pipe")).status().unwrap().success());
+    let before = folder.names();
+    let mut command = folder.command("run triangle.vv -o a.obj -o old.obj -o pipe --format obj");
+    let mut child = command.stdout(Stdio::null()).spawn().unwrap();
+    let began = std::time::Instant::now();
+    while folder.names().iter().filter(|name| name.ends_with(".tmp")).count() < 2 {
+        assert!(began.elapsed().as_secs() < 60, "no file was begun");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-s", "TERM", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().signal(), Some(15));
+    assert_eq!((folder.names(), folder.read("old.obj").as_str()), (before, "old"));
+}
