@@ -174,6 +174,7 @@ impl Renderer {
     /// # Errors
     /// If the driver is out of memory.
     pub fn upload_arrows(&self, arrows: &ArrowSet) -> Result<UploadedArrows, RenderError> {
+        let _span = trace::span("uploading arrows");
         guarded(&self.device, || UploadedArrows::new(&self.device, &self.queue, &self.pipelines, arrows))
     }
 
@@ -197,6 +198,7 @@ impl Renderer {
     /// # Errors
     /// If the driver is out of memory.
     pub fn upload_tint(&self, tint: &Tint) -> Result<UploadedTint, RenderError> {
+        let _span = trace::span("uploading colours");
         guarded(&self.device, || UploadedTint::new(&self.device, &self.queue, tint))
     }
 

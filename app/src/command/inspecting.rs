@@ -36,6 +36,8 @@ pub enum Inspect {
     /// No walk any more.
     EndWalk,
 
+    /// The ring of the generation before in the picture, or no more.
+    OldRing,
     /// The list of what is wrong with the mesh, and its marks in the picture.
     ListProblems,
 }
@@ -55,6 +57,11 @@ impl Inspect {
             Self::WalkBack => ("Walk back", "one arrow back", const { &[key(Key::Comma)] }),
             Self::PlayWalk => ("Play the walk", "walk around the face, arrow by arrow", const { &[ctrl(Key::Period)] }),
             Self::EndWalk => ("End the walk", "draw no arrows any more", &[]),
+            Self::OldRing => (
+                "Old ring in the picture",
+                "draw the ring that the selected vertex had before the step, dashed, where it was",
+                &[],
+            ),
             Self::ListProblems => {
                 ("Mesh problems", "list what is wrong with the mesh and mark it", const { &[alt(Key::P)] })
             }
@@ -71,7 +78,7 @@ impl Inspect {
         match self {
             Self::Clear => !inspection.selection.is_empty() || walk.is_some(),
             Self::AskForVertex | Self::ListProblems => session.frame().is_some(),
-            Self::Fly => !session.selected().is_empty(),
+            Self::Fly => !session.selected().is_empty() || walk.is_some(),
             Self::WalkOn => match walk {
                 Some(walking) => walking.at < walking.walk.arrows(),
                 None => session.corner().is_some(),
@@ -86,6 +93,7 @@ impl Inspect {
     pub(super) fn is_on(&self, session: &Session) -> Option<bool> {
         match self {
             Self::ListProblems => Some(session.inspection.listing),
+            Self::OldRing => Some(session.inspection.old_ring),
             Self::PlayWalk => Some(session.inspection.walk.as_ref().is_some_and(|w| w.playing.is_some())),
             _ => None,
         }

@@ -3,6 +3,7 @@
 use eframe::egui::{Button, RichText, ScrollArea, TextStyle, Ui, Vec2b};
 
 use super::clicks::point_at;
+use super::theme;
 use super::widgets::grouped;
 use crate::command::{Command, Inspect};
 use crate::inspect::findings::{Findings, Group, LISTED, Row};
@@ -27,7 +28,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
     let selected = session.selected();
     let height = ui.text_style_height(&TextStyle::Body).max(ui.spacing().interact_size.y - 4.0);
-    let area = ScrollArea::vertical().id_salt("findings").auto_shrink(Vec2b::FALSE);
+    let area = ScrollArea::vertical().id_salt("findings").auto_shrink(Vec2b::FALSE).content_margin(theme::beside_bar());
     area.show_rows(ui, height, lines.len(), |ui, range| {
         for line in &lines[range] {
             match line {
@@ -81,8 +82,8 @@ fn entry(ui: &mut Ui, chosen: bool, row: &Row, height: f32, commands: &mut Vec<C
         }
         if response.on_hover_text("select it and fly there").clicked() {
             commands.push(Command::Inspect(Inspect::Select(row.item)));
-            commands.push(Command::Inspect(Inspect::Fly));
             commands.extend(row.walk.map(|start| Command::Inspect(Inspect::Walk(start))));
+            commands.push(Command::Inspect(Inspect::Fly));
             // A broken walk is best seen whole.
             if row.walk.is_some() {
                 commands.push(Command::Inspect(Inspect::PlayWalk));

@@ -3,14 +3,15 @@
 use eframe::egui::{self, Align, Grid, Layout, RichText, ScrollArea, Ui, Vec2b};
 
 use super::widgets::{button, grouped, heading, seconds};
-use super::{display, parameters, selection};
+use super::{display, parameters, selection, theme};
 use crate::command::Command;
 use crate::session::{Purpose, Session};
 use crate::worker::Frame;
 
 /// Shows them.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    ScrollArea::vertical().auto_shrink(Vec2b::FALSE).show(ui, |ui| {
+    let area = ScrollArea::vertical().auto_shrink(Vec2b::FALSE).content_margin(theme::beside_bar());
+    area.show(ui, |ui| {
         heading(ui, "Mesh");
         ui.horizontal(|ui| {
             ui.add(egui::Label::new(session.document.mesh.name()).truncate());

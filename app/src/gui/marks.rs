@@ -18,6 +18,8 @@ use crate::worker::Frame;
 const ORDERED: usize = 48;
 /// Corners of a face or a walk that are drawn.
 const CORNERS: usize = 2_000;
+/// Longer walks are drawn from the beginning, with a veil over all else.
+const LONG: usize = 12;
 /// Findings of a kind that are marked.
 const MARKED: usize = 60;
 /// Vertices of an error that are marked.
@@ -37,7 +39,12 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
     }
     let selected = session.selected();
     match (&selected[..], &inspection.walk) {
-        (&[Item::Vertex(v)], None) => ring(overlay, mesh, v),
+        (&[Item::Vertex(v)], None) => {
+            if inspection.old_ring {
+                old_ring(overlay, session, frame, v);
+            }
+            ring(overlay, mesh, v);
+        }
         _ => measures(overlay, mesh, &selected),
     }
     for &item in &selected {
@@ -126,6 +133,39 @@ fn ring(overlay: &Overlay<'_>, mesh: &Mesh, v: Vertex) {
     }
 }
 
+/// The ring of the generation before, thin and dashed, where its vertices were; and where the vertex went from there.
+fn old_ring(overlay: &Overlay<'_>, session: &Session, frame: &Frame, v: Vertex) {
+    let (Some((ring, _)), Some(old)) = (session.old_ring(v), &frame.before) else { return };
+    if ring.len > ORDERED {
+        return;
+    }
+    let (center, ink) = (old.position(ring.of), overlay.inks.old);
+    let Some(middle) = overlay.see(center) else { return };
+    // Where the ring of now has its names.
+    let taken: Vec<_> = frame.mesh.ring(v).vertices().filter_map(|q| overlay.see(frame.mesh.position(q))).collect();
+    let arm = |q: Vertex| old.position(q) - center;
+    let nearest = ring.vertices().map(|q| arm(q).length()).filter(|l| *l > 0.0).fold(f64::INFINITY, f64::min);
+    let mut number = 0;
+    for (i, entry) in ring.entries.iter().enumerate() {
+        let Some(q) = entry.vertex() else { continue };
+        number += 1;
+        let at = old.position(q);
+        overlay.past(center, at, ink);
+        let next = ring.entries[(i + 1) % ring.entries.len()];
+        if let Some(r) = next.vertex().filter(|_| ring.entries.len() > 1) {
+            overlay.curved_arrow(&arc(center, arm(q), arm(r), 0.7 * nearest), 1.0, ink);
+        }
+        let Some(spot) = overlay.see(at) else { continue };
+        overlay.circle(at, 3.0, 1.3, ink);
+        let aside = spot.at - middle.at;
+        if aside.length() > 40.0 && !taken.iter().any(|t| t.at.distance(spot.at) < 34.0) {
+            overlay.label(at, aside.normalized() * vec2(26.0, 16.0), &format!("{number}  {q}"), ink);
+        }
+    }
+    overlay.circle(center, 4.0, 1.3, ink);
+    overlay.arrow(center, frame.mesh.position(v), 6.0, 1.3, ink);
+}
+
 /// An arc around a point, in the plane of two arms, from close to one to close to the other.
 fn arc(center: DVec3, a: DVec3, b: DVec3, radius: f64) -> Vec<DVec3> {
     const PIECES: usize = 8;
@@ -181,6 +221,11 @@ fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking, selected: &[Item]
         if walk.end == End::Closed && walk.arrows() > 2 { at.lerp(middle, 0.1) } else { at }
     };
     let last = walking.at.min(path.len() - 1);
+    if path.len() > LONG {
+        // All of the way, and less of all else.
+        overlay.veil();
+        overlay.trail(path.iter().map(|&v| mesh.position(v)), 1.6, ink.gamma_multiply(0.55));
+    }
     if walk.end == End::Closed && last == walk.arrows() {
         polygon(overlay, mesh, &path[..last], ink);
     }

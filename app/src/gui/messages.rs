@@ -32,38 +32,40 @@ impl Messages {
         self.errors = errors;
         let generation = session.console_generation();
         let lines = session.console().len(generation);
-        ui.horizontal(|ui| {
-            let all = problems.iter().count();
-            let title = if all == 0 { "Problems".to_owned() } else { format!("Problems ({all})") };
-            let mut title = RichText::new(title);
-            if errors + warnings > 0 {
-                let worst = if errors > 0 { Severity::Error } else { Severity::Warning };
-                title = title.color(theme::severity(ui.visuals(), worst));
-            }
-            let listing = session.inspection.listing;
-            let list = Command::Inspect(Inspect::ListProblems);
-            if tab(ui, !self.console && !listing, title, "Problems").clicked() {
-                self.console = false;
-                commands.extend(listing.then(|| list.clone()));
-            }
-            let title = mesh_title(ui, session);
-            if tab(ui, listing, title, "Mesh").clicked() && !listing {
-                commands.push(list.clone());
-            }
-            let title = if lines == 0 { "Console".to_owned() } else { format!("Console ({lines})") };
-            if tab(ui, self.console && !listing, title, "Console").clicked() {
-                self.console = true;
-                commands.extend(listing.then_some(list));
-            }
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                if self.console
-                    && !listing
-                    && lines > 0
-                    && ui.small_button("Copy").on_hover_text("copy all lines").clicked()
-                {
-                    ui.ctx().copy_text(session.console().lines(generation, 0..lines).join("\n"));
+        egui::Frame::NONE.inner_margin(theme::beside_bar()).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                let all = problems.iter().count();
+                let title = if all == 0 { "Problems".to_owned() } else { format!("Problems ({all})") };
+                let mut title = RichText::new(title);
+                if errors + warnings > 0 {
+                    let worst = if errors > 0 { Severity::Error } else { Severity::Warning };
+                    title = title.color(theme::severity(ui.visuals(), worst));
                 }
-            });
+                let listing = session.inspection.listing;
+                let list = Command::Inspect(Inspect::ListProblems);
+                if tab(ui, !self.console && !listing, title, "Problems").clicked() {
+                    self.console = false;
+                    commands.extend(listing.then(|| list.clone()));
+                }
+                let title = mesh_title(ui, session);
+                if tab(ui, listing, title, "Mesh").clicked() && !listing {
+                    commands.push(list.clone());
+                }
+                let title = if lines == 0 { "Console".to_owned() } else { format!("Console ({lines})") };
+                if tab(ui, self.console && !listing, title, "Console").clicked() {
+                    self.console = true;
+                    commands.extend(listing.then_some(list));
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    if self.console
+                        && !listing
+                        && lines > 0
+                        && ui.small_button("Copy").on_hover_text("copy all lines").clicked()
+                    {
+                        ui.ctx().copy_text(session.console().lines(generation, 0..lines).join("\n"));
+                    }
+                });
+            })
         });
         ui.add_space(2.0);
         if session.inspection.listing {
@@ -89,7 +91,8 @@ fn mesh_title(ui: &Ui, session: &Session) -> RichText {
 }
 
 fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    ScrollArea::vertical().id_salt("problems").auto_shrink(Vec2b::FALSE).show(ui, |ui| {
+    let area = ScrollArea::vertical().id_salt("problems").auto_shrink(Vec2b::FALSE);
+    area.content_margin(theme::beside_bar()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 3.0;
         if session.problems().iter().next().is_none() {
             ui.weak("no problems");

@@ -24,12 +24,16 @@ pub struct Inks {
     pub pointed: Color32,
     /// Neighbours, and their order.
     pub ring: Color32,
+    /// What was before the step.
+    pub old: Color32,
     /// The walk.
     pub walk: Color32,
     /// What is wrong.
     pub wrong: Color32,
     /// What is measured.
     pub measure: Color32,
+    /// Over what matters less.
+    veil: Color32,
     /// Around all of them.
     halo: Color32,
     /// Behind text.
@@ -43,26 +47,29 @@ impl Inks {
         let visuals = ui.visuals();
         let paper = visuals.window_fill.gamma_multiply(0.9);
         let halo = visuals.extreme_bg_color.gamma_multiply(0.75);
+        let veil = visuals.extreme_bg_color.gamma_multiply(0.6);
         if visuals.dark_mode {
-            let [selected, pointed, ring, walk, wrong, measure] = [
+            let [selected, pointed, ring, old, walk, wrong, measure] = [
                 Color32::from_rgb(0xff, 0x9f, 0x2e),
                 Color32::from_rgb(0xff, 0xe1, 0x5a),
                 Color32::from_rgb(0x6c, 0xc4, 0xff),
+                Color32::from_rgb(0xc3, 0xb4, 0xf2),
                 Color32::from_rgb(0xf0, 0x7c, 0xff),
                 Color32::from_rgb(0xff, 0x5f, 0x57),
                 Color32::from_rgb(0x7c, 0xe3, 0x8b),
             ];
-            Self { selected, pointed, ring, walk, wrong, measure, halo, paper }
+            Self { selected, pointed, ring, old, walk, wrong, measure, veil, halo, paper }
         } else {
-            let [selected, pointed, ring, walk, wrong, measure] = [
+            let [selected, pointed, ring, old, walk, wrong, measure] = [
                 Color32::from_rgb(0xd6, 0x5a, 0x00),
                 Color32::from_rgb(0xf2, 0xa9, 0x00),
                 Color32::from_rgb(0x0b, 0x5c, 0xc4),
+                Color32::from_rgb(0x62, 0x47, 0xa6),
                 Color32::from_rgb(0xa1, 0x1f, 0xbf),
                 Color32::from_rgb(0xd1, 0x1a, 0x1a),
                 Color32::from_rgb(0x16, 0x7a, 0x33),
             ];
-            Self { selected, pointed, ring, walk, wrong, measure, halo, paper }
+            Self { selected, pointed, ring, old, walk, wrong, measure, veil, halo, paper }
         }
     }
 }
@@ -160,6 +167,13 @@ impl<'a> Overlay<'a> {
         self.painter.extend(Shape::dashed_line(&[a, b], Stroke::new(width, color), 6.0, 4.0));
     }
 
+    /// The same, thin: for what was.
+    pub fn past(&self, a: DVec3, b: DVec3, color: Color32) {
+        let Some((a, b, hidden)) = self.ends(a, b) else { return };
+        self.painter.line_segment([a, b], Stroke::new(3.0, Self::faded(self.inks.halo, hidden).gamma_multiply(0.6)));
+        self.painter.extend(Shape::dashed_line(&[a, b], Stroke::new(1.4, Self::faded(color, hidden)), 4.0, 3.0));
+    }
+
     /// An arrow between two points of the world, which leaves `margin` points of length free at either end.
     pub fn arrow(&self, a: DVec3, b: DVec3, margin: f32, width: f32, color: Color32) {
         let Some((a, b, hidden)) = self.ends(a, b) else { return };
@@ -231,6 +245,20 @@ impl<'a> Overlay<'a> {
             self.painter.circle_filled(spot.at, radius, Self::faded(color.gamma_multiply(part), spot.hidden));
         }
         self.painter.circle(spot.at, 4.0, Self::faded(color, spot.hidden), Stroke::new(1.0, self.inks.halo));
+    }
+
+    /// Makes fainter what is there so far.
+    pub fn veil(&self) {
+        self.painter.rect_filled(self.rect, 0.0, self.inks.veil);
+    }
+
+    /// A thin line through points, also where faces hide it.
+    pub fn trail(&self, points: impl Iterator<Item = DVec3>, width: f32, color: Color32) {
+        let places: Vec<Option<Pos2>> = points.map(|p| self.project(p)).collect();
+        for seen in places.split(Option::is_none).filter(|seen| seen.len() > 1) {
+            let seen: Vec<Pos2> = seen.iter().copied().flatten().collect();
+            self.stroke(&seen, width, color, false);
+        }
     }
 
     /// A polygon's outline and a faint filling, triangle by triangle.

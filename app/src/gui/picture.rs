@@ -15,7 +15,7 @@ use crate::worker::release;
 /// Smooth outlines; software drivers take a third longer for them.
 const SAMPLES: u32 = 4;
 
-/// Scenes of more corners come to the GPU in a thread of their own, so that the window waits for none.
+/// What has more elements comes to the GPU in a thread of its own, so that the window waits for none.
 const AT_ONCE: usize = 100_000;
 
 /// Draws only when something has changed.
@@ -26,12 +26,12 @@ pub struct Picture {
     target: Option<Target>,
     texture: Option<TextureId>,
     uploaded: Option<(Arc<Scene>, Uploaded)>,
-    uploading: Option<Uploading>,
-    /// What cannot be brought to the GPU, and why.
-    refused: Option<(Arc<Scene>, RenderError)>,
-    /// The colours on the GPU.
+    /// The colours and arrows on the GPU, made for that scene.
     tint: Option<(Arc<Tint>, UploadedTint)>,
     arrows: Option<(Arc<ArrowSet>, UploadedArrows)>,
+    underway: Option<Delivery>,
+    /// What cannot be brought to the GPU, and why.
+    refused: Option<(Load, RenderError)>,
     drawn: Option<Drawn>,
     /// How often it was drawn.
     pub drawings: u64,
@@ -63,9 +63,58 @@ impl PartialEq for Drawn {
     }
 }
 
-struct Uploading {
+/// What is to be brought to the GPU: what of a scene and of what was made for it is not there.
+struct Load {
     scene: Arc<Scene>,
-    result: Receiver<Result<Uploaded, RenderError>>,
+    /// Whether the scene itself is to be brought.
+    whole: bool,
+    tint: Option<Arc<Tint>>,
+    arrows: Option<Arc<ArrowSet>>,
+}
+
+struct Loaded {
+    scene: Option<Uploaded>,
+    tint: Option<UploadedTint>,
+    arrows: Option<UploadedArrows>,
+}
+
+/// A load on its way.
+struct Delivery {
+    load: Load,
+    result: Receiver<Result<Loaded, RenderError>>,
+}
+
+impl Load {
+    fn is_empty(&self) -> bool {
+        !self.whole && self.tint.is_none() && self.arrows.is_none()
+    }
+
+    /// How many elements it has, about.
+    fn size(&self) -> usize {
+        let scene = if self.whole { self.scene.mesh.corners.len() + self.scene.control.corners.len() } else { 0 };
+        let words = self.tint.as_ref().map_or(0, |tint| tint.words.len());
+        scene + words + self.arrows.as_ref().map_or(0, |arrows| arrows.arrows.len())
+    }
+
+    /// Whether it is all that is wanted.
+    fn is(&self, wanted: &Self) -> bool {
+        let same_dress = same(self.tint.as_ref().map(|tint| &tint.words), wanted.tint.as_ref().map(|tint| &tint.words))
+            && same(self.arrows.as_ref(), wanted.arrows.as_ref());
+        Arc::ptr_eq(&self.scene, &wanted.scene) && self.whole == wanted.whole && same_dress
+    }
+
+    /// Whether it is worth waiting for: a scene comes in whatever dress.
+    fn serves(&self, wanted: &Self) -> bool {
+        self.is(wanted) || self.whole && wanted.whole && Arc::ptr_eq(&self.scene, &wanted.scene)
+    }
+
+    fn bring(&self, renderer: &Renderer) -> Result<Loaded, RenderError> {
+        Ok(Loaded {
+            scene: self.whole.then(|| renderer.upload(&self.scene)).transpose()?,
+            tint: self.tint.as_ref().map(|tint| renderer.upload_tint(tint)).transpose()?,
+            arrows: self.arrows.as_ref().map(|arrows| renderer.upload_arrows(arrows)).transpose()?,
+        })
+    }
 }
 
 impl Picture {
@@ -82,10 +131,10 @@ impl Picture {
             target: None,
             texture: None,
             uploaded: None,
-            uploading: None,
-            refused: None,
             tint: None,
             arrows: None,
+            underway: None,
+            refused: None,
             drawn: None,
             drawings: 0,
         })
@@ -104,15 +153,7 @@ impl Picture {
         style: &Style,
     ) -> Result<TextureId, RenderError> {
         let texture = self.sized(size)?;
-        if !self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene)) {
-            self.upload(scene)?;
-        }
-        // A scene that is still on its way is not the one these colours are for.
-        let arrived = self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene));
-        if arrived {
-            self.upload_tint(dress.tint.as_ref())?;
-            self.upload_arrows(dress.arrows.as_ref())?;
-        }
+        self.supply(scene, dress)?;
         let wanted = Drawn {
             camera: *camera,
             style: *style,
@@ -127,75 +168,112 @@ impl Picture {
                 arrows: self.arrows.as_ref().map(|(_, arrows)| (arrows, dress.arrow_length)),
             };
             self.renderer.draw(target, uploaded, dress, camera, style)?;
-            self.drawn = Some(wanted);
+            release(self.drawn.replace(wanted));
             self.drawings += 1;
         }
         Ok(texture)
     }
 
-    fn upload_tint(&mut self, tint: Option<&Arc<Tint>>) -> Result<(), RenderError> {
-        self.tint = match (tint, self.tint.take()) {
-            (None, _) => None,
-            // Another range only: the words are the same.
-            (Some(tint), Some((old, words))) if Arc::ptr_eq(&old.words, &tint.words) => Some((Arc::clone(tint), words)),
-            (Some(tint), _) => Some((Arc::clone(tint), self.renderer.upload_tint(tint)?)),
-        };
-        Ok(())
-    }
-
-    fn upload_arrows(&mut self, arrows: Option<&Arc<ArrowSet>>) -> Result<(), RenderError> {
-        if !same(self.arrows.as_ref().map(|(arrows, _)| arrows), arrows) {
-            self.arrows = match arrows {
-                Some(arrows) => Some((Arc::clone(arrows), self.renderer.upload_arrows(arrows)?)),
-                None => None,
-            };
+    /// Sees to it that the scene and what was made for it are on the GPU, or come there.
+    fn supply(&mut self, scene: &Arc<Scene>, dress: &Wardrobe) -> Result<(), RenderError> {
+        let whole = !self.uploaded.as_ref().is_some_and(|(uploaded, _)| Arc::ptr_eq(uploaded, scene));
+        let mut wanted =
+            Load { scene: Arc::clone(scene), whole, tint: dress.tint.clone(), arrows: dress.arrows.clone() };
+        if !whole {
+            self.keep(&mut wanted);
         }
-        Ok(())
-    }
-
-    fn upload(&mut self, scene: &Arc<Scene>) -> Result<(), RenderError> {
-        if let Some((_, error)) = self.refused.as_ref().filter(|(refused, _)| Arc::ptr_eq(refused, scene)) {
+        if wanted.is_empty() {
+            self.underway = None; // nobody waits for it any more
+            return Ok(());
+        }
+        if let Some((_, error)) = self.refused.as_ref().filter(|(refused, _)| refused.is(&wanted)) {
             return Err(error.clone());
         }
-        let result = match &self.uploading {
-            Some(on_its_way) if Arc::ptr_eq(&on_its_way.scene, scene) => match on_its_way.result.try_recv() {
-                Ok(result) => result,
-                Err(TryRecvError::Empty) => return Ok(()),
-                Err(TryRecvError::Disconnected) => Err(RenderError::Failed("the graphics driver gave up".to_owned())),
+        let underway = self.underway.take_if(|delivery| delivery.load.serves(&wanted));
+        let (load, result) = match underway {
+            Some(delivery) => match delivery.result.try_recv() {
+                Ok(result) => (delivery.load, result),
+                Err(TryRecvError::Empty) => {
+                    self.underway = Some(delivery);
+                    return Ok(());
+                }
+                Err(TryRecvError::Disconnected) => {
+                    (delivery.load, Err(RenderError::Failed("the graphics driver gave up".to_owned())))
+                }
             },
-            _ if scene.mesh.corners.len() + scene.control.corners.len() <= AT_ONCE => self.renderer.upload(scene),
-            _ => {
-                self.send(scene);
+            None if wanted.size() <= AT_ONCE => {
+                let result = wanted.bring(&self.renderer);
+                (wanted, result)
+            }
+            None => {
+                self.send(wanted);
                 return Ok(());
             }
         };
-        self.uploading = None;
-        self.drawn = None;
         match result {
-            Ok(uploaded) => {
-                (self.tint, self.arrows) = (None, None); // they are of the scene before
-                release(self.uploaded.replace((Arc::clone(scene), uploaded)));
+            Ok(loaded) => {
+                self.install(load, loaded);
+                return self.supply(scene, dress); // it may be in another dress by now
             }
-            // Perhaps there is room without the one before.
-            Err(_) if self.uploaded.take().is_some() => self.send(scene),
+            // Perhaps there is room without what was there before.
+            Err(_) if self.uploaded.is_some() => {
+                (self.uploaded, self.tint, self.arrows, self.drawn) = (None, None, None, None);
+                self.send(Load { whole: true, tint: dress.tint.clone(), arrows: dress.arrows.clone(), ..load });
+            }
             Err(error) => {
-                self.refused = Some((Arc::clone(scene), error.clone()));
+                self.refused = Some((load, error.clone()));
                 return Err(error);
             }
         }
         Ok(())
     }
 
-    /// Begins to bring a scene to the GPU.
-    fn send(&mut self, scene: &Arc<Scene>) {
+    /// Leaves out of a load what is on the GPU, and takes from there what is not wanted any more.
+    fn keep(&mut self, wanted: &mut Load) {
+        match (&mut self.tint, &wanted.tint) {
+            // At most another range: the words are the same.
+            (Some((old, _)), Some(new)) if Arc::ptr_eq(&old.words, &new.words) => {
+                *old = Arc::clone(new);
+                wanted.tint = None;
+            }
+            // The colours before stay until the others come.
+            (Some(_), Some(_)) | (None, _) => {}
+            (tint, None) => release(tint.take()),
+        }
+        if same(self.arrows.as_ref().map(|(arrows, _)| arrows), wanted.arrows.as_ref()) {
+            wanted.arrows = None;
+        } else if wanted.arrows.is_none() {
+            release(self.arrows.take());
+        }
+    }
+
+    fn install(&mut self, load: Load, loaded: Loaded) {
+        self.refused = None;
+        if let Some(uploaded) = loaded.scene {
+            // What is there is of the scene before.
+            release((self.tint.take(), self.arrows.take(), self.drawn.take()));
+            release(self.uploaded.replace((load.scene, uploaded)));
+        }
+        if let Some(tint) = load.tint.zip(loaded.tint) {
+            release(self.tint.replace(tint));
+        }
+        if let Some(arrows) = load.arrows.zip(loaded.arrows) {
+            release(self.arrows.replace(arrows));
+        }
+    }
+
+    /// Begins to bring something to the GPU.
+    fn send(&mut self, load: Load) {
         let (sender, result) = mpsc::channel();
-        let (renderer, wake, sent) = (Arc::clone(&self.renderer), Arc::clone(&self.wake), Arc::clone(scene));
+        let (renderer, wake) = (Arc::clone(&self.renderer), Arc::clone(&self.wake));
+        let Load { scene, whole, tint, arrows } = &load;
+        let sent = Load { scene: Arc::clone(scene), whole: *whole, tint: tint.clone(), arrows: arrows.clone() };
         std::thread::spawn(move || {
-            let _ = sender.send(renderer.upload(&sent));
+            let _ = sender.send(sent.bring(&renderer));
             drop(sent);
             wake();
         });
-        self.uploading = Some(Uploading { scene: Arc::clone(scene), result });
+        self.underway = Some(Delivery { load, result });
     }
 
     /// The texture in this size.
@@ -229,5 +307,69 @@ fn same<T>(a: Option<&Arc<T>>, b: Option<&Arc<T>>) -> bool {
         (Some(a), Some(b)) => Arc::ptr_eq(a, b),
         (None, None) => true,
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use egui_kittest::wgpu::{create_render_state, default_wgpu_setup as setup};
+
+    use vv::io::{Format, ReadOptions};
+    use vv::mesh::faces::faces;
+    use vv::stop::Stop;
+
+    use super::*;
+    use crate::annotate::{Annotations, Subject};
+    use crate::inspect::lineage::Lineage;
+    use crate::scene::Sphere;
+
+    /// A square, and its colours with as many words as a large mesh has.
+    fn square() -> (Arc<Scene>, Arc<Tint>) {
+        let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+        let mesh = vv::io::read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap().0;
+        let faces = faces(&mesh, &Stop::new()).unwrap();
+        let scene = Scene::new(&mesh, &faces, None, &Stop::new()).unwrap();
+        let lineage = Lineage::default();
+        let subject = Subject {
+            mesh: &mesh,
+            faces: &faces,
+            scene: &scene,
+            generation: 0,
+            before: None,
+            lineage: &lineage,
+            tint: None,
+        };
+        let asked = Annotations { color_by: "x".parse().unwrap(), ..Annotations::default() };
+        let mut tint = Tint::new(&subject, &asked, &Stop::new()).unwrap().unwrap();
+        let mut words = Vec::clone(&tint.words);
+        words.resize(AT_ONCE + 1, 0);
+        tint.words = Arc::new(words);
+        (Arc::new(scene), Arc::new(tint))
+    }
+
+    #[test]
+    fn many_colours_come_to_the_gpu_in_a_thread_of_their_own() {
+        let state = create_render_state(setup(), Default::default());
+        let (waker, awake) = mpsc::channel();
+        let waker = std::sync::Mutex::new(waker);
+        let wake = move || _ = waker.lock().unwrap().send(());
+        let mut picture = Picture::new(state, Arc::new(wake)).unwrap();
+        let (scene, tint) = square();
+        let camera = Camera::standard(Sphere { center: glam::DVec3::ZERO, radius: 1.0 }, 1.0);
+        let mut show = |tint: Option<&Arc<Tint>>| {
+            let dress = Wardrobe { tint: tint.cloned(), ..Wardrobe::default() };
+            picture.texture(Size::new(32, 32), &scene, &dress, &camera, &Style::default()).unwrap();
+            (picture.drawings, picture.tint.is_some(), picture.underway.is_some())
+        };
+        assert_eq!(show(None), (1, false, false), "few corners come at once");
+        assert_eq!(show(Some(&tint)), (1, false, true), "nobody waits");
+        awake.recv_timeout(Duration::from_secs(30)).unwrap();
+        assert_eq!(show(Some(&tint)), (2, true, false));
+        assert_eq!(show(Some(&Arc::new(tint.with_range(Some([0.0, 9.0]))))), (3, true, false), "the words are there");
+        assert_eq!(show(None), (4, false, false));
+        assert_eq!(show(Some(&tint)), (4, false, true));
+        assert_eq!(show(None), (4, false, false), "what is not wanted any more is not waited for");
     }
 }

@@ -26,28 +26,25 @@ const ROWS: usize = 24;
 pub fn show(ui: &mut Ui, session: &Session, frame: &Frame, v: Vertex, commands: &mut Vec<Command>) {
     let generation = frame.request.generation;
     let ring = Ring::of(&frame.mesh, v);
-    let old = frame.before.as_ref().zip(generation.checked_sub(1)).and_then(|(mesh, before)| {
-        let was = frame.lineage.carry(v, generation, before)?;
-        Some((Ring::of(mesh, was), before))
-    });
+    let old = session.old_ring(v);
     let panel = Panel { session, frame };
-    heading(ui, "Ring");
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Ring").strong());
+        sample(ui, Inks::new(ui).ring, false);
+    });
     let beside = old.is_some() && ui.available_width() > 430.0;
-    let mut both = |ui: &mut Ui| {
-        panel.ring(ui, &ring, generation, "", commands);
-        let Some((old, before)) = &old else { return };
-        ui.add_space(4.0);
-        ui.label(RichText::new(format!("Old ring, generation {before}")).strong());
-        panel.ring(ui, old, *before, "old ", commands);
-    };
     if beside && let Some((old, before)) = &old {
         ui.columns(2, |columns| {
             panel.ring(&mut columns[0], &ring, generation, "", commands);
-            columns[1].label(RichText::new(format!("Old ring, generation {before}")).strong());
-            panel.ring(&mut columns[1], old, *before, "old ", commands);
+            panel.old(&mut columns[1], old, *before, commands);
         });
     } else {
-        both(ui);
+        panel.ring(ui, &ring, generation, "", commands);
+        if let Some((old, before)) = &old {
+            ui.add_space(4.0);
+            panel.old(ui, old, *before, commands);
+        }
     }
     if old.is_none() && generation > 0 {
         let born = frame.lineage.birth(v, generation) == generation;
@@ -80,6 +77,16 @@ impl Panel<'_> {
             self.circle(ui, ring, generation, prefix, commands);
         }
         self.text(ui, ring, generation, prefix, commands);
+    }
+
+    /// The ring before the step, and whether it is seen in the picture.
+    fn old(&self, ui: &mut Ui, old: &Ring, before: u64, commands: &mut Vec<Command>) {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(format!("Old ring, generation {before}")).strong());
+            sample(ui, Inks::new(ui).old, true);
+        });
+        super::widgets::switch(ui, self.session, commands, Command::Inspect(Inspect::OldRing));
+        self.ring(ui, old, before, "old ", commands);
     }
 
     /// What a vertex of a generation is called now.
@@ -120,7 +127,11 @@ impl Panel<'_> {
             let next = ring.entries[(i + 1) % count];
             let gap = entry == Entry::Gap || next == Entry::Gap;
             if count > 1 {
-                let ink = if gap { weak } else { inks.ring };
+                let ink = match gap {
+                    true => weak,
+                    false if prefix.is_empty() => inks.ring,
+                    false => inks.old,
+                };
                 arc(ui, rect.center(), radius, i, count, room, ink, gap);
             }
         }
@@ -253,6 +264,17 @@ impl Panel<'_> {
         if count > ROWS {
             ui.weak(format!("… {} more", count - ROWS));
         }
+    }
+}
+
+/// How its lines look in the picture.
+fn sample(ui: &mut Ui, ink: Color32, dashed: bool) {
+    let (rect, _) = ui.allocate_exact_size(vec2(24.0, 12.0), Sense::hover());
+    let ends = [rect.left_center(), rect.right_center()];
+    if dashed {
+        ui.painter().extend(Shape::dashed_line(&ends, Stroke::new(1.4, ink), 4.0, 3.0));
+    } else {
+        ui.painter().line_segment(ends, Stroke::new(2.0, ink));
     }
 }
 

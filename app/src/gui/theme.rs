@@ -128,9 +128,17 @@ pub fn bar(ui: &Ui) -> Frame {
     Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(12, 4))
 }
 
-/// The frame of a side panel.
+/// Points beside what a panel shows.
+const BESIDE: i8 = 12;
+
+/// The frame of a side panel. Its right margin is left to what it shows, [`beside_bar`].
 pub fn panel(ui: &Ui) -> Frame {
-    Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(12, 8))
+    Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin { left: BESIDE, right: 0, top: 8, bottom: 8 })
+}
+
+/// The right margin in a panel, in which a scroll bar has its place beside the text.
+pub fn beside_bar() -> Margin {
+    Margin { right: BESIDE, ..Margin::ZERO }
 }
 
 /// The frame of the program's text.

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use vv::diagnostic::{Diagnostic, Severity};
+use vv::mesh::triangulate::newell;
 use vv::mesh::{Mesh, Vertex};
 
 use super::{Dialog, Session};
@@ -11,20 +12,24 @@ use crate::camera::Camera;
 use crate::command::Inspect;
 use crate::inspect::lineage::Lineage;
 use crate::inspect::measure::{FaceMeasure, normal_at};
+use crate::inspect::ring::Ring;
 use crate::inspect::selection::{Item, Selection};
 use crate::inspect::walk::Walk;
 use crate::scene::Sphere;
 use crate::worker::{Failed, Frame};
 
-/// Between two arrows of a walk that is played.
+/// Between two arrows of a walk that is played; less if there are so many that it would take longer than [`WALK`].
 const ARROW: Duration = Duration::from_millis(650);
+const WALK: Duration = Duration::from_secs(12);
+/// Walks with more vertices are seen alone.
+const AROUND: usize = 12;
 /// Neighbours of a vertex that decide how close a flight comes.
 const NEIGHBOURS: usize = 64;
 /// A surface that turns farther away from the eye than this is brought around.
 const STEEP: f64 = 1.1;
 
 /// What is looked at closely.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Inspection {
     /// What is selected. [`Session::selected`] tells what of it the shown mesh has.
     pub selection: Selection,
@@ -34,8 +39,17 @@ pub struct Inspection {
     pub walk: Option<Walking>,
     /// Whether the problems of the mesh are listed and marked.
     pub listing: bool,
+    /// Whether the ring of the generation before is drawn, too.
+    pub old_ring: bool,
     /// Where the program failed.
     pub fault: Option<Fault>,
+}
+
+impl Default for Inspection {
+    fn default() -> Self {
+        let selection = Selection::default();
+        Self { selection, pointed: None, walk: None, listing: false, old_ring: true, fault: None }
+    }
 }
 
 /// Edmonds' walk, watched step by step.
@@ -49,6 +63,13 @@ pub struct Walking {
     pub playing: Option<Instant>,
     start: [Vertex; 2],
     generation: u64,
+}
+
+impl Walking {
+    /// Between two arrows, when they are played.
+    fn pause(&self) -> Duration {
+        ARROW.min(WALK / u32::try_from(self.walk.arrows()).unwrap_or(u32::MAX).max(1))
+    }
 }
 
 /// The mesh before a step that failed, and the vertices that the error names.
@@ -85,6 +106,15 @@ impl Session {
     pub fn shown_vertex(&self, v: Vertex, generation: u64) -> Option<Vertex> {
         let frame = self.frame.as_ref()?;
         frame.lineage.carry(v, generation, frame.request.generation).filter(|&v| frame.mesh.set.contains(v))
+    }
+
+    /// The ring that a vertex of the shown mesh had before the step, with the generation that was.
+    #[must_use]
+    pub fn old_ring(&self, v: Vertex) -> Option<(Ring, u64)> {
+        let frame = self.frame.as_ref()?;
+        let generation = frame.request.generation;
+        let (mesh, before) = frame.before.as_ref().zip(generation.checked_sub(1))?;
+        Some((Ring::of(mesh, frame.lineage.carry(v, generation, before)?), before))
     }
 
     /// Where a walk would begin: at the selected face or edge, or at the start of the ring of the selected vertex.
@@ -135,6 +165,7 @@ impl Session {
             }
             Inspect::PlayWalk => self.play_walk(),
             Inspect::EndWalk => self.inspection.walk = None,
+            Inspect::OldRing => self.inspection.old_ring = !self.inspection.old_ring,
             Inspect::ListProblems => {
                 self.inspection.listing = !self.inspection.listing;
                 self.panels.messages |= self.inspection.listing;
@@ -222,7 +253,8 @@ impl Session {
     fn fly(&mut self) {
         let Some(frame) = &self.frame else { return };
         let aspect = self.view.map_or(1.0, |(size, _)| size.aspect());
-        let Some((ball, normal)) = ball(&self.selected(), frame) else { return };
+        let orbit = self.inspection.walk.as_ref().and_then(|walking| orbit(&walking.walk, frame));
+        let Some((ball, normal)) = orbit.or_else(|| ball(&self.selected(), frame)) else { return };
         let from = self.aim();
         let turned = normal.map_or(from, |normal| facing(from, normal));
         let to = turned.fit(ball, aspect);
@@ -237,11 +269,14 @@ impl Session {
         if let Some(walking) = &mut self.inspection.walk
             && let Some(since) = walking.playing
         {
-            if now.duration_since(since) >= ARROW {
-                walking.at = (walking.at + 1).min(walking.walk.arrows());
+            let pause = walking.pause();
+            let passed = now.duration_since(since).as_secs_f64() / pause.as_secs_f64();
+            if passed >= 1.0 {
+                // Pictures may take longer than a pause.
+                walking.at = walking.at.saturating_add(passed as usize).min(walking.walk.arrows());
                 walking.playing = (walking.at < walking.walk.arrows()).then_some(now);
             }
-            return walking.playing.map(|since| since + ARROW);
+            return walking.playing.map(|since| since + pause);
         }
         None
     }
@@ -279,6 +314,21 @@ fn ball(items: &[Item], frame: &Frame) -> Option<(Sphere, Option<DVec3>)> {
         _ => corners.iter().find_map(|&v| normal_at(mesh, v)),
     };
     Some((Sphere { center, radius }, normal.filter(|n| *n != DVec3::ZERO)))
+}
+
+/// A ball around a walk, all of it, and where the face faces that it goes round.
+fn orbit(walk: &Walk, frame: &Frame) -> Option<(Sphere, Option<DVec3>)> {
+    let points = walk.path.iter().map(|&v| frame.mesh.position(v)).filter(|p| p.is_finite());
+    let points: Vec<DVec3> = points.collect();
+    let (first, rest) = points.split_first()?;
+    let (low, high) = rest.iter().fold((*first, *first), |(low, high), &p| (low.min(p), high.max(p)));
+    let center = (low + high) / 2.0;
+    let reach = points.iter().map(|p| p.distance(center)).fold(0.0, f64::max);
+    // The face lies on the right hand. A short way that does not close goes around nothing.
+    let normal = Some(-newell(&points).normalize_or_zero()).filter(|n| *n != DVec3::ZERO && points.len() > 3);
+    // A face is seen with what is around it, a long way fills the picture.
+    let room = if points.len() > AROUND { 1.1 } else { 2.2 };
+    (reach > 0.0).then_some((Sphere { center, radius: room * reach }, normal))
 }
 
 /// `camera`, turned as little as needed to see a surface that faces `normal`.
