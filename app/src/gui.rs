@@ -227,9 +227,12 @@ impl App {
         let session = &self.session;
         let width = ui.available_width();
         let inspector = if session.panels.inspector { INSPECTOR } else { 0.0 };
+        let span = trace::span("window: bars");
         egui::Panel::top("menu").frame(theme::bar(ui)).show(ui, |ui| menu::show(ui, session, commands));
         egui::Panel::top("tools").frame(theme::bar(ui)).show(ui, |ui| toolbar::show(ui, session, commands));
+        drop(span);
         if session.panels.program || session.panels.messages {
+            let _span = trace::span("window: program and messages");
             egui::Panel::left("left")
                 .frame(egui::Frame::NONE)
                 .default_size((width * 0.36).clamp(240.0, 560.0))
@@ -258,6 +261,7 @@ impl App {
                 });
         }
         if session.panels.inspector {
+            let _span = trace::span("window: inspector");
             egui::Panel::right("inspector")
                 .frame(theme::panel(ui))
                 .default_size((width * 0.19).clamp(190.0, 270.0))
@@ -390,7 +394,10 @@ impl eframe::App for App {
             self.reference.show(ui.ctx(), &mut commands);
         }
         drop::show(ui.ctx());
-        dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
+        if self.session.dialog.is_some() {
+            let _span = trace::span("window: dialog");
+            dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
+        }
         clicks::take_pointed(ui.ctx(), &self.session, &mut commands);
         if !commands.is_empty() {
             // What they change is seen in the next frame.

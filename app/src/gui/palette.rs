@@ -163,6 +163,9 @@ fn row(ui: &mut Ui, session: &Session, entry: &Entry, matched: &Match, selected:
     let enabled = entry.command.is_enabled(session);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     response.widget_info(|| WidgetInfo::selected(egui::Role::Button, enabled, selected, &entry.label));
+    if !ui.is_rect_visible(rect) {
+        return (response, enabled); // to lay out all texts takes longer than a picture may
+    }
     let visuals = ui.visuals().clone();
     let (mut text, mut weak) = (visuals.text_color(), visuals.weak_text_color());
     if selected {

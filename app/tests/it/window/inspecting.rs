@@ -301,3 +301,66 @@ fn a_run_time_error_shows_the_vertices_that_it_names() {
     press(&mut window, Key::Num0);
     assert!(window.state().session().inspection.fault.is_none());
 }
+
+#[test]
+fn the_old_ring_is_drawn_where_it_was_and_can_be_left_out() {
+    let text = "void f(mesh& S) {\n  forall v in S v$pos *= 0.5;\n  vertex x; add x to S; }\n";
+    let (mut window, _folder) = on(PLANE, text);
+    let middle = position(&window, 5);
+    click_at(&mut window, middle, Modifiers::NONE);
+    assert!(window.state().session().old_ring(v(5)).is_none(), "nothing was before");
+    press(&mut window, Key::S);
+    known(&mut window);
+    let (ring, generation) = window.state().session().old_ring(v(5)).unwrap();
+    assert_eq!((ring.to_string(), generation), ("v5: {v1, v2, v3, v4}".to_owned(), 0));
+    let with = window.render().unwrap();
+    click(&mut window, "Old ring in the picture");
+    assert!(!window.state().session().inspection.old_ring);
+    window.event(egui::Event::PointerGone);
+    known(&mut window);
+    let without = window.render().unwrap();
+    assert!(differ(&window, &with, &without) > 300);
+}
+
+#[test]
+fn a_long_broken_orbit_is_seen_whole() {
+    const CORNERS: usize = 120;
+    let mut obj = String::new();
+    for z in [0, 1] {
+        for i in 0..CORNERS {
+            let angle = std::f64::consts::TAU * i as f64 / CORNERS as f64;
+            obj += &format!("v {} {} {z}\n", 5.0 * angle.cos(), 5.0 * angle.sin());
+        }
+    }
+    obj += "f";
+    (1..=CORNERS).rev().for_each(|i| obj += &format!(" {i}"));
+    obj += "\n";
+    for i in 0..CORNERS {
+        let [a, b] = [i + 1, (i + 1) % CORNERS + 1];
+        obj += &format!("f {a} {b} {} {}\n", b + CORNERS, a + CORNERS);
+    }
+    obj += "f";
+    (CORNERS + 1..=2 * CORNERS).for_each(|i| obj += &format!(" {i}"));
+    obj += "\n";
+    let (mut window, _folder) = on(&obj, TEARS);
+    press(&mut window, Key::S);
+    known(&mut window);
+    window.get_by_role_and_label(Role::Button, "Mesh").click();
+    settle(&mut window);
+    let text = {
+        let frame = window.state().session().frame().unwrap();
+        let broken = frame.findings.get().unwrap().groups.iter().find(|g| g.kind == Kind::Broken).unwrap();
+        broken.rows[0].text.clone()
+    };
+    click(&mut window, &text);
+    until(&mut window, "the camera is there", |s| !s.glides());
+    let session = window.state().session();
+    let path = session.inspection.walk.as_ref().unwrap().walk.path.clone();
+    assert!(path.len() >= CORNERS, "{}", path.len());
+    let viewport = window.get_by_label("Viewport").rect();
+    let mesh = &session.frame().unwrap().mesh;
+    let places: Vec<egui::Pos2> = path.iter().map(|&v| seen(&window, mesh.position(v))).collect();
+    assert!(places.iter().all(|p| viewport.contains(*p)), "{viewport}: {places:?}");
+    let width = egui::Rect::from_points(&places).width();
+    assert!(width > 0.5 * viewport.width().min(viewport.height()), "{width} of {viewport}");
+}
