@@ -28,6 +28,7 @@ mod keys;
 mod labels;
 mod legend;
 mod marks;
+mod mask;
 mod menu;
 mod messages;
 mod overlay;
@@ -399,6 +400,7 @@ impl eframe::App for App {
             dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
         }
         clicks::take_pointed(ui.ctx(), &self.session, &mut commands);
+        mask::take_pointed(ui.ctx(), &self.session, &mut commands);
         if !commands.is_empty() {
             // What they change is seen in the next frame.
             ui.ctx().request_repaint();

@@ -5,6 +5,7 @@
 
 pub mod findings;
 pub mod lineage;
+pub mod mask;
 pub mod measure;
 pub mod ring;
 pub mod selection;

@@ -17,6 +17,7 @@ mod subdividing;
 mod text;
 mod undo;
 mod view;
+mod weighing;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -49,6 +50,7 @@ use files::{Chooser, is_project};
 pub use inspecting::{Fault, Inspection, Walking};
 pub use problem::{Place, Problem, Problems};
 pub use undo::changed;
+pub use weighing::MaskState;
 
 /// How long a computation may go on for something that is no longer wanted: what is nearly done is worth seeing, so that
 /// a slider shows something while it moves.
@@ -179,6 +181,7 @@ pub struct Session {
 
     history: undo::History,
     finding: coloring::Finding,
+    weighing: weighing::Weighing,
     /// The text that is run, which may be older than the one in the editor.
     text_to_run: Arc<str>,
     /// When to ask for what is wanted, if it is not what was asked for last.
@@ -286,6 +289,7 @@ impl Session {
             mesh_chosen: false,
             history: undo::History::default(),
             finding: coloring::Finding::default(),
+            weighing: weighing::Weighing::default(),
             text_to_run,
             due: None,
             running: None,
@@ -469,6 +473,7 @@ impl Session {
         let motion = self.animate();
         self.ask();
         self.color();
+        let mask = self.weigh();
         if self.notice.as_ref().is_some_and(|(.., since)| since.elapsed() > NOTICE) {
             self.notice = None;
         }
@@ -479,8 +484,10 @@ impl Session {
         let grace = self.running.as_ref().filter(|_| self.due.is_some()).map(|r| r.since + GRACE);
         let notice = self.notice.as_ref().map(|(.., since)| *since + NOTICE);
         let clock = self.running.as_ref().map(|_| now + Duration::from_millis(100));
-        let next =
-            [self.due.max(grace), beat, notice, clock, keep, flight, motion, other].into_iter().flatten().min()?;
+        let next = [self.due.max(grace), beat, notice, clock, keep, flight, motion, mask, other]
+            .into_iter()
+            .flatten()
+            .min()?;
         Some(next.saturating_duration_since(now).max(Duration::from_millis(5)))
     }
 
@@ -488,6 +495,7 @@ impl Session {
     pub fn start(&mut self) {
         self.ask();
         self.color();
+        self.weigh();
     }
 
     fn change_style(&mut self, change: impl FnOnce(&mut Style)) {

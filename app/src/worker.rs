@@ -23,7 +23,8 @@ use std::thread::JoinHandle;
 
 use vv::Compilation;
 use vv::diagnostic::Diagnostic;
-use vv::engine::{FailureKind, Limits};
+use vv::engine::{FailureKind, Limits, Machine};
+use vv::ir::{FunctionId, GlobalId};
 use vv::mesh::faces::Faces;
 use vv::mesh::statistics::Statistics;
 use vv::mesh::{Mesh, Value};
@@ -143,12 +144,25 @@ pub struct Frame {
     pub before: Option<Mesh>,
     /// Which vertex of a generation is which of another.
     pub lineage: Lineage,
+    /// The step that made it; `None` for generation 0.
+    pub made: Option<Arc<Made>>,
     /// What is wrong with the mesh; known some time after the frame.
     pub findings: OnceLock<Findings>,
     /// The colours found for it.
     pub colors: Cell,
     /// Where the time went.
     pub timings: Timings,
+}
+
+/// A step, to be run again.
+#[derive(Debug)]
+pub struct Made {
+    /// The program, ready to run.
+    pub machine: Arc<Machine>,
+    /// The rule.
+    pub rule: FunctionId,
+    /// Values of parameters.
+    pub params: Vec<(GlobalId, Value)>,
 }
 
 impl Frame {

@@ -11,6 +11,7 @@
 //! Samavati draw masks as the right-hand sides of their Figures 7, 8 and 10.)
 
 mod star;
+mod vertex;
 
 use glam::DVec3;
 
@@ -19,7 +20,8 @@ use crate::ir::FunctionId;
 use crate::mesh::close::close;
 use crate::mesh::{Mesh, Vertex};
 
-pub use star::{Around, Class, Place, Star, classes, same_classes};
+pub use star::{Around, Class, Judgement, Place, Star, classes, judge, same_classes};
+pub use vertex::{VertexMask, measure_vertex};
 
 /// Weights below this are none, and positions closer than this are the same.
 pub const TOLERANCE: f64 = 1e-11;
@@ -58,6 +60,20 @@ pub enum Fault {
     /// Other neighbours when vertices lie elsewhere.
     #[error("the connectivity depends on the positions")]
     Connectivity,
+    /// Too many vertices have a part in it.
+    #[error("{vertex} depends on more than {most} old vertices")]
+    Wide {
+        /// The new vertex.
+        vertex: Vertex,
+        /// As many as were looked at.
+        most: usize,
+    },
+    /// There is a left and a right in the rule.
+    #[error("the masks are not symmetric: a mirror image has others")]
+    Asymmetric,
+    /// What comes first comes out otherwise.
+    #[error("the masks depend on the order of the vertices")]
+    Order,
 }
 
 /// Measures the masks of `rule` on `mesh`, as generation 1. Output is thrown away. Cost: a step for every three vertices.
@@ -65,18 +81,7 @@ pub enum Fault {
 /// # Errors
 /// As [`Machine::run`].
 pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Settings) -> Result<Masks, Failure> {
-    let step = |mesh: &Mesh| -> Result<Mesh, Failure> {
-        let mut result = machine.run(rule, mesh, 1, settings, &mut Vec::new())?;
-        close(&mut result, &settings.stop).map_err(|stopped| Failure {
-            kind: FailureKind::Stopped(stopped),
-            diagnostic: Box::new(crate::diagnostic::Diagnostic::new(
-                crate::diagnostic::Severity::Error,
-                None,
-                stopped.to_string(),
-            )),
-        })?;
-        Ok(result)
-    };
+    let step = |mesh: &Mesh| step(machine, rule, mesh, 1, settings);
     let result = step(mesh)?;
     let mut weights = vec![Vec::new(); result.vertex_count()];
     let mut faults = Vec::new();
@@ -98,9 +103,7 @@ pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Sett
     // Somewhere quite else: no two vertices along a line with the origin.
     let mut elsewhere = mesh.clone();
     for &v in &old {
-        let i = v.index() as f64 + 1.0;
-        let scatter = DVec3::new((i * 0.754_877_666).fract(), (i * 0.569_840_291).fract(), (i * 0.362_3).fract());
-        elsewhere.set_position(v, 4.0 * scatter - 1.5);
+        elsewhere.set_position(v, scattered(v));
     }
     let there = step(&elsewhere)?;
     if !same_rings(&result, &there) {
@@ -121,6 +124,32 @@ pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Sett
         }
     }
     Ok(Masks { result, weights, faults })
+}
+
+/// A step, closed.
+fn step(
+    machine: &Machine,
+    rule: FunctionId,
+    mesh: &Mesh,
+    generation: u64,
+    settings: &Settings,
+) -> Result<Mesh, Failure> {
+    let mut result = machine.run(rule, mesh, generation, settings, &mut Vec::new())?;
+    close(&mut result, &settings.stop).map_err(|stopped| Failure {
+        kind: FailureKind::Stopped(stopped),
+        diagnostic: Box::new(crate::diagnostic::Diagnostic::new(
+            crate::diagnostic::Severity::Error,
+            None,
+            stopped.to_string(),
+        )),
+    })?;
+    Ok(result)
+}
+
+/// A place of its own for each vertex; no two of them lie along a line with the origin.
+fn scattered(v: Vertex) -> DVec3 {
+    let i = v.index() as f64 + 1.0;
+    4.0 * DVec3::new((i * 0.754_877_666).fract(), (i * 0.569_840_291).fract(), (i * 0.362_3).fract()) - 1.5
 }
 
 fn same_rings(a: &Mesh, b: &Mesh) -> bool {

@@ -25,6 +25,11 @@ pub enum Inspect {
     /// The pointer rests on this vertex, in the picture or in a panel.
     Point(Option<Vertex>),
 
+    /// The same of a vertex of the generation before, in a mask.
+    PointOld(Option<Vertex>),
+    /// The mask of the selected vertex: of which vertices the step made it.
+    Mask,
+
     /// Begins Edmonds' walk with the arrow from the first vertex to the second.
     Walk([Vertex; 2]),
     /// One arrow further; begins a walk at what is selected, if there is none.
@@ -65,9 +70,17 @@ impl Inspect {
             Self::ListProblems => {
                 ("Mesh problems", "list what is wrong with the mesh and mark it", const { &[alt(Key::P)] })
             }
-            Self::Select(_) | Self::Toggle(_) | Self::SelectNumbers(_) | Self::Point(_) | Self::Walk(_) => {
-                ("", "", &[])
-            }
+            Self::Mask => (
+                "Mask",
+                "of which old vertices the step made the selected one, and with which weights",
+                const { &[key(Key::M)] },
+            ),
+            Self::Select(_)
+            | Self::Toggle(_)
+            | Self::SelectNumbers(_)
+            | Self::Point(_)
+            | Self::PointOld(_)
+            | Self::Walk(_) => ("", "", &[]),
         };
         Description { label, tooltip, shortcuts }
     }
@@ -77,7 +90,7 @@ impl Inspect {
         let walk = inspection.walk.as_ref();
         match self {
             Self::Clear => !inspection.selection.is_empty() || walk.is_some(),
-            Self::AskForVertex | Self::ListProblems => session.frame().is_some(),
+            Self::AskForVertex | Self::ListProblems | Self::Mask => session.frame().is_some(),
             Self::Fly => !session.selected().is_empty() || walk.is_some(),
             Self::WalkOn => match walk {
                 Some(walking) => walking.at < walking.walk.arrows(),
@@ -94,6 +107,7 @@ impl Inspect {
         match self {
             Self::ListProblems => Some(session.inspection.listing),
             Self::OldRing => Some(session.inspection.old_ring),
+            Self::Mask => Some(session.inspection.mask),
             Self::PlayWalk => Some(session.inspection.walk.as_ref().is_some_and(|w| w.playing.is_some())),
             _ => None,
         }

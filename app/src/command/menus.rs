@@ -171,7 +171,11 @@ pub const MENUS: &[Menu] = &[
                 Command::Inspect(Inspect::PlayWalk),
                 Command::Inspect(Inspect::EndWalk),
             ],
-            &[Command::Inspect(Inspect::OldRing), Command::Inspect(Inspect::ListProblems)],
+            &[
+                Command::Inspect(Inspect::OldRing),
+                Command::Inspect(Inspect::Mask),
+                Command::Inspect(Inspect::ListProblems),
+            ],
         ],
     },
     Menu {

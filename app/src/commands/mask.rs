@@ -11,7 +11,7 @@ use serde::Serialize;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::engine::{Engine, Failure, FailureKind, Machine, Settings};
 use vv::ir::FunctionId;
-use vv::masks::{Around, Class, Masks, Star, TOLERANCE, classes, fraction, measure, same_classes};
+use vv::masks::{Around, Class, Masks, Star, TOLERANCE, fraction, judge, measure};
 use vv::mesh::faces::faces;
 use vv::mesh::{Mesh, Vertex};
 use vv::source::Sources;
@@ -223,11 +223,10 @@ impl Bench<'_> {
                 (true, 1) => "boundary, 1 sector".to_owned(),
                 (true, n) => format!("boundary, {n} sectors"),
             };
-            let row = match self.measure(&star.mesh) {
-                Ok(masks) => {
-                    let found = classes(&star, &masks);
-                    self.judge(&title, &star, &masks, &found, &mut table.warnings);
-                    let masks = found.iter().map(|class| named(&star, class)).collect();
+            let row = match judge(&self.machine, self.rule, &star, &self.settings) {
+                Ok(found) => {
+                    table.warnings.extend(found.faults.iter().map(|fault| format!("{title}: {fault}")));
+                    let masks = found.classes.iter().map(|class| named(&star, class)).collect();
                     Row { title, masks, failure: None }
                 }
                 Err(failure) => Row { title, masks: Vec::new(), failure: Some(failure.diagnostic.message.clone()) },
@@ -245,19 +244,6 @@ impl Bench<'_> {
             Some(faces(&result, &Stop::new()).ok()?.iter().all(|face| face.len() == 3))
         };
         if makes_triangles() == Some(true) { Around::Triangles } else { Around::Quads }
-    }
-
-    fn judge(&self, title: &str, star: &Star, masks: &Masks, found: &[Class], warnings: &mut Vec<String>) {
-        if let Some(fault) = masks.faults.first() {
-            warnings.push(format!("{title}: {fault}"));
-        }
-        if found.iter().any(|class| !class.symmetric) {
-            warnings.push(format!("{title}: the masks are not symmetric: a mirror image has others"));
-        }
-        let again = star.reversed().and_then(|other| Some((self.measure(&other.mesh).ok()?, other)));
-        if again.is_none_or(|(masks, other)| !same_classes(found, &classes(&other, &masks))) {
-            warnings.push(format!("{title}: the masks depend on the order of the vertices"));
-        }
     }
 }
 

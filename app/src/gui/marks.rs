@@ -38,8 +38,10 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
         failed(overlay, fault);
     }
     let selected = session.selected();
+    // One drawing at a vertex is enough.
+    let masked = super::mask::mark(ui, overlay, session, frame);
     match (&selected[..], &inspection.walk) {
-        (&[Item::Vertex(v)], None) => {
+        (&[Item::Vertex(v)], None) if !masked => {
             if inspection.old_ring {
                 old_ring(overlay, session, frame, v);
             }

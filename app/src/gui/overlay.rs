@@ -120,6 +120,12 @@ impl<'a> Overlay<'a> {
         self.camera.ray(picture_point(of(at - self.rect.min), of(self.rect.size())))
     }
 
+    /// Where the picture is.
+    #[must_use]
+    pub fn rect(&self) -> Rect {
+        self.rect
+    }
+
     /// What is cut away.
     #[must_use]
     pub fn cut(&self) -> Option<Plane> {

@@ -30,17 +30,17 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 .wrap(),
         );
         button(ui, session, commands, Command::Inspect(Inspect::AskForVertex));
+        super::mask::show(ui, session, commands);
         ui.separator();
         return;
     }
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        for wish in [Inspect::Fly, Inspect::Clear] {
-            let command = Command::Inspect(wish.clone());
-            let text = if wish == Inspect::Fly { "Fly there" } else { "Clear" };
-            let enabled = command.is_enabled(session);
+        for (wish, text) in [(Inspect::Fly, "Fly there"), (Inspect::Clear, "Clear"), (Inspect::Mask, "Mask")] {
+            let command = Command::Inspect(wish);
+            let button = eframe::egui::Button::new(text).selected(command.is_on(session) == Some(true));
             let response =
-                ui.add_enabled(enabled, eframe::egui::Button::new(text)).accessible_name(command.describe().label);
+                ui.add_enabled(command.is_enabled(session), button).accessible_name(command.describe().label);
             if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &command)).clicked() {
                 commands.push(command);
             }
@@ -54,6 +54,9 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         [Item::Edge(ends)] => edge(ui, session, frame, ends, commands),
         [Item::Face(side)] => face(ui, session, frame, side, commands),
         _ => several(ui, session, frame, &selected, commands),
+    }
+    if !matches!(selected[..], [Item::Vertex(_)]) {
+        super::mask::show(ui, session, commands);
     }
     for (generation, item) in gone {
         ui.weak(format!("{item} of generation {generation} is not in this one"));
@@ -105,6 +108,7 @@ fn vertex(ui: &mut Ui, session: &Session, frame: &Frame, v: Vertex, commands: &m
             row(ui, &property.name, text);
         }
     });
+    super::mask::show(ui, session, commands);
     ring::show(ui, session, frame, v, commands);
 }
 

@@ -43,12 +43,25 @@ pub struct Inspection {
     pub old_ring: bool,
     /// Where the program failed.
     pub fault: Option<Fault>,
+    /// Whether the mask of the selected vertex is wanted.
+    pub mask: bool,
+    /// The vertex of the generation before that the pointer rests on, in a mask.
+    pub pointed_old: Option<Vertex>,
 }
 
 impl Default for Inspection {
     fn default() -> Self {
         let selection = Selection::default();
-        Self { selection, pointed: None, walk: None, listing: false, old_ring: true, fault: None }
+        Self {
+            selection,
+            pointed: None,
+            walk: None,
+            listing: false,
+            old_ring: true,
+            fault: None,
+            mask: false,
+            pointed_old: None,
+        }
     }
 }
 
@@ -149,6 +162,11 @@ impl Session {
             Inspect::AskForVertex => self.dialog = Some(Dialog::SelectVertex { text: String::new() }),
             Inspect::Fly => self.fly(),
             Inspect::Point(vertex) => self.inspection.pointed = vertex,
+            Inspect::PointOld(vertex) => self.inspection.pointed_old = vertex,
+            Inspect::Mask => {
+                self.inspection.mask = !self.inspection.mask;
+                self.panels.inspector |= self.inspection.mask;
+            }
             Inspect::Walk(start) => self.walk(start, 1),
             Inspect::WalkOn => match &mut self.inspection.walk {
                 Some(walking) => {

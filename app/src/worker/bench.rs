@@ -18,7 +18,7 @@ use vv::stop::{Stop, Stopped};
 use super::history::{History, Kept, frame};
 use super::printer::Printer;
 use super::results;
-use super::{Event, Failed, Frame, Reached, Recipe, Report, Request, Shared, lock};
+use super::{Event, Failed, Frame, Made, Reached, Recipe, Report, Request, Shared, lock};
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
 use crate::inspect::findings::Findings;
@@ -217,7 +217,7 @@ impl Bench {
         &mut self,
         ticket: u64,
         request: &Request,
-        machine: &Machine,
+        machine: &Arc<Machine>,
         input: Mesh,
         stop: &Stop,
     ) -> Result<Arc<Frame>, Failed> {
@@ -252,7 +252,7 @@ impl Bench {
         &self,
         ticket: u64,
         request: &Request,
-        machine: &Machine,
+        machine: &Arc<Machine>,
         input: Mesh,
         stop: &Stop,
         history: &mut History,
@@ -265,6 +265,8 @@ impl Bench {
             stop: stop.clone(),
             ..Settings::default()
         };
+        let named = recipe.rule.as_deref().and_then(|name| program.rule(name));
+        let rule = named.or_else(|| program.default_rule());
         let nearest = history.generations.range(..=request.generation).next_back().map(|(&g, _)| g);
         for generation in nearest.map_or(0, |g| g + 1)..=request.generation {
             let failed = |failure: Failure| Failed {
@@ -283,8 +285,7 @@ impl Bench {
             let result = match generation.checked_sub(1).and_then(|g| history.generations.get(&g)) {
                 None => evaluation::first(machine, &input, &settings, &mut printer),
                 Some(before) => {
-                    let rule = recipe.rule.as_deref().and_then(|name| program.rule(name));
-                    let Some(rule) = rule.or_else(|| program.default_rule()) else {
+                    let Some(rule) = rule else {
                         let message = "the program has no rule to step";
                         let hint = "write `void step(mesh& S) { … }`";
                         return Err(Failed {
@@ -303,7 +304,9 @@ impl Bench {
             self.tell_reached(history);
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
-        let frame = history.frame(request, stop).map_err(stopped)?;
+        let rule = rule.filter(|_| request.generation > 0);
+        let made = rule.map(|rule| Made { machine: Arc::clone(machine), rule, params: settings.params.clone() });
+        let frame = history.frame(request, made, stop).map_err(stopped)?;
         let annotations = lock(&self.shared.annotations).clone();
         frame.colors.find(&frame.subject(), &annotations, stop);
         history.evict(self.shared.memory.load(Ordering::Relaxed), request.generation);

@@ -9,7 +9,7 @@ use vv::mesh::faces::{Faces, faces};
 use vv::mesh::statistics::statistics;
 use vv::stop::{Stop, Stopped};
 
-use super::{Frame, Recipe, Request, Timings};
+use super::{Frame, Made, Recipe, Request, Timings};
 use crate::annotate::cell::Cell;
 use crate::evaluation::Generation;
 use crate::inspect::lineage::Lineage;
@@ -44,7 +44,7 @@ impl History {
     }
 
     /// The picture of a generation that is kept.
-    pub fn frame(&mut self, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Stopped> {
+    pub fn frame(&mut self, request: &Request, made: Option<Made>, stop: &Stop) -> Result<Arc<Frame>, Stopped> {
         let control_mesh = self.generations.get(&0).map(|kept| kept.generation.mesh.clone());
         if let (None, Some(mesh)) = (&self.control, &control_mesh) {
             self.control = Some(faces(mesh, stop)?);
@@ -62,7 +62,12 @@ impl History {
             return Ok(Arc::clone(frame));
         }
         let lineage = self.lineage.clone();
-        let frame = Arc::new(Frame { before, lineage, ..frame(request, &kept.generation, control, stop)? });
+        let frame = Arc::new(Frame {
+            before,
+            lineage,
+            made: made.map(Arc::new),
+            ..frame(request, &kept.generation, control, stop)?
+        });
         kept.frame = Some(Arc::clone(&frame));
         Ok(frame)
     }
@@ -127,6 +132,7 @@ pub(super) fn frame(
         warnings: generation.warnings.clone(),
         scene,
         before: None,
+        made: None,
         lineage: Lineage::default(),
         findings: OnceLock::new(),
         colors: Cell::default(),

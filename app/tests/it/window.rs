@@ -6,6 +6,7 @@ mod editor;
 mod gallery;
 mod inspecting;
 mod keeping;
+mod masks;
 mod palette;
 mod reach;
 mod subdividing;

@@ -5,7 +5,9 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, dvec3};
 
-use super::{Masks, TOLERANCE};
+use super::{Fault, Masks, TOLERANCE, measure};
+use crate::engine::{Failure, Machine, Settings};
+use crate::ir::FunctionId;
 use crate::mesh::build::{Polygons, build};
 use crate::mesh::faces::faces;
 use crate::mesh::{Mesh, Vertex};
@@ -257,4 +259,31 @@ pub fn classes(star: &Star, masks: &Masks) -> Vec<Class> {
     }
     all.sort_by(|a, b| star.part_of_p(&b.mask).total_cmp(&star.part_of_p(&a.mask)));
     all
+}
+
+/// What the masks around a vertex are like.
+#[derive(Debug, Clone)]
+pub struct Judgement {
+    /// The new vertices that have part in it.
+    pub classes: Vec<Class>,
+    /// What keeps them from being masks that a drawing could tell: of each kind the first.
+    pub faults: Vec<Fault>,
+}
+
+/// Measures the masks around the middle of a star, once more with its vertices in another order.
+///
+/// # Errors
+/// As [`measure`].
+pub fn judge(machine: &Machine, rule: FunctionId, star: &Star, settings: &Settings) -> Result<Judgement, Failure> {
+    let masks = measure(machine, rule, &star.mesh, settings)?;
+    let classes = classes(star, &masks);
+    let mut faults: Vec<Fault> = masks.faults.first().copied().into_iter().collect();
+    if classes.iter().any(|class| !class.symmetric) {
+        faults.push(Fault::Asymmetric);
+    }
+    let again = star.reversed().and_then(|other| Some((measure(machine, rule, &other.mesh, settings).ok()?, other)));
+    if again.is_none_or(|(masks, other)| !same_classes(&classes, &self::classes(&other, &masks))) {
+        faults.push(Fault::Order);
+    }
+    Ok(Judgement { classes, faults })
 }

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use vv::engine::{Engine, Machine, Settings};
-use vv::masks::{Around, Class, Fault, Star, classes, measure, same_classes};
+use vv::masks::{Around, Class, Fault, Star, classes, measure, measure_vertex, same_classes};
+use vv::mesh::{Mesh, Vertex};
 
 fn machine(text: &str) -> Machine {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/programs");
@@ -181,4 +182,81 @@ fn the_order_of_vertices_is_found_to_matter() {
     let star = Star::new(5, Around::Triangles, false).unwrap();
     let other = star.reversed().unwrap();
     assert!(!same_classes(&found(&greedy, &star).0, &found(&greedy, &other).0));
+}
+
+fn shipped(folder: &str, name: &str) -> String {
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets");
+    std::fs::read_to_string(assets.join(folder).join(name)).unwrap()
+}
+
+fn mesh(name: &str) -> Mesh {
+    vv::io::read(shipped("meshes", name).as_bytes(), vv::io::Format::Obj, &vv::io::ReadOptions::default()).unwrap().0
+}
+
+#[test]
+fn the_mask_of_one_vertex_is_the_one_it_has_among_all() {
+    for (program, name) in [
+        ("loop.vv", "tetrapod.obj"),
+        ("butterfly.vv", "icosahedron.obj"),
+        ("sqrt3.vv", "torus.obj"),
+        ("doo-sabin.vv", "cube-frame.obj"),
+        ("catmull-clark.vv", "cube-open.obj"),
+    ] {
+        let (machine, mesh) = (machine(&shipped("programs", program)), mesh(name));
+        let rule = machine.program().default_rule().unwrap();
+        let all = measure(&machine, rule, &mesh, &Settings::default()).unwrap();
+        assert_eq!(all.faults, []);
+        let some = all.result.vertices().step_by(1 + all.result.vertex_count() / 12);
+        for v in some {
+            let mut one = measure_vertex(&machine, rule, &mesh, 1, v, &Settings::default()).unwrap();
+            assert_eq!(one.faults, [], "{program}, {v}");
+            one.weights.sort_by_key(|(v, _)| *v);
+            let expected = &all.weights[v.index()];
+            let names = |weights: &[(Vertex, f64)]| weights.iter().map(|(v, _)| *v).collect::<Vec<_>>();
+            assert_eq!(names(&one.weights), names(expected), "{program}, {v}");
+            for ((_, a), (_, b)) in one.weights.iter().zip(expected) {
+                assert!((a - b).abs() < 1e-12, "{program}, {v}: {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn of_one_vertex_it_is_said_what_is_no_mask() {
+    let mesh = mesh("torus.obj");
+    let of = |body: &str| {
+        let machine = machine(&format!("void step(mesh& S) {{ {body} }}"));
+        let rule = machine.program().default_rule().unwrap();
+        let v = Vertex::from_index(7).unwrap();
+        measure_vertex(&machine, rule, &mesh, 1, v, &Settings::default()).unwrap()
+    };
+    let kept = of("forall v in S v$pos += 0.0 * v$pos;");
+    assert!(matches!(kept.weights[..], [(v, w)] if v == kept.vertex && (w - 1.0).abs() < 1e-12), "{kept:?}");
+    assert_eq!(kept.faults, []);
+    assert!(matches!(of("forall v in S v$pos = 2.0 * v$pos;").faults[..], [Fault::Sum { sum: 2.0, .. }]));
+    assert!(matches!(of("forall v in S v$pos.z += 1;").faults[..], [Fault::NotAffine { .. }]));
+    assert!(matches!(of("forall v in S v$pos = normalize(v$pos);").faults.last(), Some(Fault::NotAffine { .. })));
+    let far = of("forall v in S if (v$pos.x > 3.4) { vertex q = any in v; erase q from v; erase v from q; }");
+    assert_eq!(far.faults, [Fault::Connectivity]);
+    // To the middle of all of them: they are not few, but all are found.
+    let middle = "vec sum = vec(0, 0, 0); int n = 0; forall v in S { sum += v$pos; n = n + 1; } \
+                  forall v in S v$pos = sum / n;";
+    let middle = of(middle);
+    assert_eq!((middle.weights.len(), middle.faults), (mesh.vertex_count(), vec![]));
+}
+
+#[test]
+fn a_vertex_that_depends_on_too_many_has_no_mask() {
+    let mut mesh = Mesh::new();
+    for i in 0..2000 {
+        let v = mesh.create().unwrap();
+        mesh.set.add(v);
+        mesh.set_position(v, glam::DVec3::splat(f64::from(i)));
+    }
+    let text = "void step(mesh& S) { vec sum = vec(0, 0, 0); forall v in S sum += v$pos; forall v in S v$pos = sum; }";
+    let machine = machine(text);
+    let rule = machine.program().default_rule().unwrap();
+    let v = Vertex::from_index(0).unwrap();
+    let mask = measure_vertex(&machine, rule, &mesh, 1, v, &Settings::default()).unwrap();
+    assert!(matches!(mask.faults[..], [Fault::Wide { .. }]), "{:?}", mask.faults);
 }

@@ -9,12 +9,12 @@ use vv::mesh::Vertex;
 
 use super::*;
 
-fn v(number: usize) -> Vertex {
+pub fn v(number: usize) -> Vertex {
     Vertex::from_index(number - 1).unwrap()
 }
 
 /// A mesh of a file, with a program that steps it.
-fn on(obj: &str, program: &str) -> (Harness<'static, App>, tempfile::TempDir) {
+pub fn on(obj: &str, program: &str) -> (Harness<'static, App>, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let (mesh, text) = (folder.path().join("mesh.obj"), folder.path().join("program.vv"));
     std::fs::write(&mesh, obj).unwrap();
@@ -26,7 +26,7 @@ fn on(obj: &str, program: &str) -> (Harness<'static, App>, tempfile::TempDir) {
 
 /// Until the picture can be pointed at and the mesh was looked at.
 #[track_caller]
-fn known(window: &mut Harness<'static, App>) {
+pub fn known(window: &mut Harness<'static, App>) {
     settle(window);
     until(window, "it can be pointed at", |s| {
         s.frame().is_some_and(|f| f.scene.is_indexed() && f.findings.get().is_some()) && !s.glides()
@@ -35,7 +35,7 @@ fn known(window: &mut Harness<'static, App>) {
 }
 
 /// Where a point of the world is seen in the window.
-fn seen(window: &Harness<'static, App>, p: DVec3) -> egui::Pos2 {
+pub fn seen(window: &Harness<'static, App>, p: DVec3) -> egui::Pos2 {
     let rect = window.get_by_label("Viewport").rect();
     let camera = window.state().session().document.camera;
     let aspect = f64::from(rect.width() / rect.height());
