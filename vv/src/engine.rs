@@ -148,7 +148,8 @@ impl Output for Vec<String> {
 pub struct OutputClosed;
 
 /// A run that did not end in a mesh.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, thiserror::Error)]
+#[error("{}", diagnostic.message)]
 pub struct Failure {
     /// What kind of end it was.
     pub kind: FailureKind,

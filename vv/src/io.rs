@@ -187,9 +187,10 @@ impl fmt::Display for Place {
 }
 
 /// Why a mesh could not be read.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ReadError {
     /// The file is not of its format, or the surface is none that a rotation system can hold.
+    #[error("{}", diagnostic.message)]
     Invalid {
         /// Where in the file, where that is known.
         place: Option<Place>,
@@ -197,6 +198,7 @@ pub enum ReadError {
         diagnostic: Box<Diagnostic>,
     },
     /// Stopped from outside.
+    #[error("{0}")]
     Stopped(Stopped),
 }
 

@@ -10,6 +10,68 @@
 //! A pure library: no window, no clock, no thread of its own, no file system. Texts come in as strings, meshes as
 //! bytes; whoever calls decides where from, how long and on which thread. Who steps a program more than once keeps an
 //! [`engine::Machine`].
+//!
+//! ```
+//! use vv::engine::{Engine, Machine, Settings};
+//! use vv::mesh::{Mesh, close::close};
+//!
+//! let text = "void step(mesh& S) { vertex x; x$pos = vec(1, 2, 3); add x to S; }";
+//! let compilation = vv::compile("grow.vv", text, &mut |_, _| Err("nothing to include".to_owned()));
+//! let machine = Machine::new(compilation.program.ok_or("the program has an error")?, Engine::Native);
+//! let rule = machine.program().default_rule().ok_or("the program has no rule")?;
+//!
+//! let (mut mesh, settings) = (Mesh::new(), Settings::default());
+//! for generation in 1..=3 {
+//!     mesh = machine.run(rule, &mesh, generation, &settings, &mut Vec::new())?;
+//!     close(&mut mesh, &settings.stop)?;
+//! }
+//! assert_eq!(mesh.vertices().map(|v| v.to_string()).collect::<Vec<_>>(), ["v1", "v2", "v3"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Where things are
+//!
+//! | to | begin at |
+//! |---|---|
+//! | read a program and hear what is wrong with it | [`compile`], [`diagnostic::Diagnostic`] |
+//! | run it | [`engine::Machine`], [`engine::Settings`]; then [`mesh::close`] |
+//! | know what programs mean | [`ir`], the manual beside it |
+//! | hold a mesh, walk and edit its rings | [`mesh::Mesh`], [`mesh::Ring`], [`mesh::Vertex`] |
+//! | find its faces, count, check it | [`mesh::faces`], [`mesh::statistics`], [`mesh::validate`] |
+//! | make one of polygons, compare two | [`mesh::build`], [`mesh::isomorphism`] |
+//! | read and write files | [`io::read`], [`io::write`], [`io::Format`] |
+//! | find the weights of a rule | [`masks::measure`], [`masks::Star`], [`masks::measure_vertex`] |
+//! | help an editor | [`assist`], [`syntax`], [`builtins`] |
+//! | end what takes too long | [`stop::Stop`], [`engine::Limits`] |
+//!
+//! # Examples
+//!
+//! In `vv/examples`, to be run by `cargo run -p vv --example NAME`:
+//!
+//! - `subdivide` runs a program on a mesh file and writes OBJ;
+//! - `orbits` walks the faces of a rotation system, and shows that the order of neighbours decides what surface it is;
+//! - `rings` edits rings by hand, with what [`mesh::validate`] says on the way;
+//! - `masks` finds the weights of a rule.
+//!
+//! ## `subdivide`
+//! ```no_run
+#![doc = include_str!("../examples/subdivide.rs")]
+//! ```
+//!
+//! ## `orbits`
+//! ```no_run
+#![doc = include_str!("../examples/orbits.rs")]
+//! ```
+//!
+//! ## `rings`
+//! ```no_run
+#![doc = include_str!("../examples/rings.rs")]
+//! ```
+//!
+//! ## `masks`
+//! ```no_run
+#![doc = include_str!("../examples/masks.rs")]
+//! ```
 
 pub mod assist;
 pub mod builtins;
@@ -23,6 +85,9 @@ pub mod mesh;
 pub mod source;
 pub mod stop;
 pub mod syntax;
+
+/// Vectors as they stand in this library's interface.
+pub use glam;
 
 use std::collections::HashSet;
 use std::sync::Arc;

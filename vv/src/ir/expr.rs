@@ -83,9 +83,9 @@ pub enum ExprKind {
 /// An argument of a call.
 #[derive(Debug, Clone)]
 pub enum Argument {
-    /// For [`Passing::Value`].
+    /// For [`super::Passing::Value`].
     Value(Expr),
-    /// For [`Passing::Reference`]: a variable of the caller, of exactly the parameter's type.
+    /// For [`super::Passing::Reference`]: a variable of the caller, of exactly the parameter's type.
     Reference(LocalId),
 }
 
@@ -114,7 +114,7 @@ pub enum Place {
     },
     /// `v$name`
     VertexProperty {
-        /// Index into [`Program::vertex_properties`].
+        /// Index into [`super::Program::vertex_properties`].
         property: u32,
         /// Of type vertex; null is an error.
         vertex: Expr,
@@ -123,7 +123,7 @@ pub enum Place {
     },
     /// `(p|q)$name`: see [`crate::mesh::Mesh::edge_value`]; no edge there is an error.
     EdgeProperty {
-        /// Index into [`Program::edge_properties`].
+        /// Index into [`super::Program::edge_properties`].
         property: u32,
         /// Both of type vertex; null is an error.
         ends: [Expr; 2],
@@ -132,7 +132,7 @@ pub enum Place {
     },
     /// `S$name`
     MeshProperty {
-        /// Index into [`Program::mesh_properties`].
+        /// Index into [`super::Program::mesh_properties`].
         property: u32,
         /// A variable of type mesh.
         set: LocalId,

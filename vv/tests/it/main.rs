@@ -8,6 +8,7 @@
 )]
 
 mod engines;
+mod examples;
 mod files;
 mod gallery;
 mod manual;
