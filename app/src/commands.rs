@@ -89,14 +89,14 @@ enum Command {
     /// First runs its `start`, if it has one, on the input mesh or on none; then applies its rule, step by step. What the
     /// program prints goes to stdout, errors and warnings go to stderr. Outputs are written when everything has
     /// succeeded, each of them whole; a failed run writes none.
-    Run(run::Arguments),
+    Run(Box<run::Arguments>),
     /// Run a program, and again whenever it or another file that it needs changes.
     ///
     /// As `vv run`, with its options. Says in one line what was made, or what is wrong, and waits until the program, an
     /// included one, the mesh, or a file named by `--style`, `--view` or `--reference` has another content; what is still
     /// being made then is stopped. Ends when it is interrupted, with Ctrl+C.
     #[command(after_help = format!("{WATCH_EXAMPLES}{EXIT_CODES}"))]
-    Watch(run::Arguments),
+    Watch(Box<run::Arguments>),
     /// Check programs for errors without running them.
     ///
     /// Finds what `vv run` would find before it runs them. Says nothing about programs without fault.
@@ -136,7 +136,7 @@ enum MeshCommand {
     /// Write a mesh in another format, or as a picture.
     ///
     /// Reads it as `vv run` would. Polygons and the order of the vertices are kept.
-    Convert(convert::Arguments),
+    Convert(Box<convert::Arguments>),
     /// Compare two meshes, whatever the order of their vertices and faces.
     ///
     /// They are the same if vertices can be put on vertices so that rings (and so faces, with their sides) come to lie on

@@ -3,8 +3,9 @@
 //! ```text
 //!   Scene + Mesh ─ space ─► surface     triangles and classified edges in the space of the picture
 //!                             ├─ hidden   which parts of edges are seen
-//!                             └─ order    faces from back to front
-//!                                  └─ page ─ chain ─► svg, eps, pdf
+//!                             ├─ order    faces from back to front
+//!                             └─ notes    labels and rings, set in letters
+//!                                  └─ page ─ chain ─► svg, eps, pdf, raster
 //! ```
 //!
 //! What is hidden is computed in double precision, not looked up in pixels: edges end exactly where a face covers them or
@@ -16,17 +17,24 @@ mod chain;
 mod eps;
 mod fill;
 mod hidden;
+mod letters;
 mod light;
+mod notes;
 mod order;
 mod page;
 mod pdf;
+mod raster;
 mod space;
 mod surface;
 mod svg;
 #[cfg(test)]
 mod tests;
+mod text;
 
-use glam::{DVec3, Vec3Swizzles};
+use std::collections::BTreeMap;
+
+use glam::{DVec2, Vec3Swizzles};
+use image::RgbaImage;
 use rayon::prelude::*;
 
 use vv::mesh::Mesh;
@@ -37,10 +45,14 @@ use crate::annotate::Tint;
 use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
-pub use page::{At, Drawing, Layer, Path};
+pub use letters::Glyph;
+pub use notes::Notes;
+pub use page::{At, Drawing, Layer, Path, Sketch, Tile, Words, sheet};
+pub use raster::image;
 
 use hidden::{Hider, Interval};
-use page::Sketch;
+use notes::Inks;
+use page::Dots;
 use space::Space;
 use surface::{Edge, Surface};
 
@@ -162,6 +174,8 @@ pub struct Settings {
     pub page: Page,
     /// The lines of each [`Class`]; `None` leaves them out.
     pub lines: [Option<Line>; Class::ALL.len()],
+    /// Height of letters, in points.
+    pub letters: f64,
 }
 
 impl Default for Settings {
@@ -171,7 +185,7 @@ impl Default for Settings {
             Class::Hidden => None,
             _ => Some(Self::line(class)),
         };
-        Self { page: Page { width: 120.0, height: Some(160.0) }, lines: Class::ALL.map(line) }
+        Self { page: Page { width: 120.0, height: Some(160.0) }, lines: Class::ALL.map(line), letters: 7.0 }
     }
 }
 
@@ -190,6 +204,12 @@ impl Settings {
     }
 }
 
+/// Height of letters in pictures, in points: as in the window.
+const ON_SCREEN: f64 = 11.0;
+
+/// How far along an edge it is looked whether it is seen at its end.
+const NEAR: f64 = 1e-3;
+
 /// What to say of a drawing that is not exact.
 pub const ROUGH: &str =
     "so many faces hide each other that some were ordered by distance only, so parts of them may be covered wrongly";
@@ -205,6 +225,8 @@ pub struct Subject<'a> {
     pub faces: &'a Faces,
     /// Their colours, made for the scene.
     pub tint: Option<&'a Tint>,
+    /// What is written and marked on it.
+    pub notes: &'a Notes,
 }
 
 /// Draws what `camera` sees in a picture of this width over height. `None` if that is nothing.
@@ -224,6 +246,23 @@ pub fn draw(
     settings: &Settings,
     stop: &Stop,
 ) -> Result<Option<Drawing>, Stopped> {
+    let tile = Tile { sketch: Some(sketch(subject, camera, aspect, style, settings, stop)?), caption: String::new() };
+    stop.check()?;
+    Ok(sheet(vec![tile], None, settings))
+}
+
+/// What `camera` sees, without a place on a page; for [`sheet`].
+///
+/// # Errors
+/// When `stop` is requested.
+pub fn sketch(
+    subject: Subject<'_>,
+    camera: &Camera,
+    aspect: f64,
+    style: &Style,
+    settings: &Settings,
+    stop: &Stop,
+) -> Result<Sketch, Stopped> {
     let Subject { scene, mesh, .. } = subject;
     let bounds = scene.bounds(&Style { control: false, ..*style });
     let space = Space::new(camera, aspect, &style.cut, bounds);
@@ -241,7 +280,7 @@ pub fn draw(
         (sketch.faces, sketch.is_rough) = fill::fill(subject, &surface, &space, style, stop)?;
     }
     for (edge, hidden) in edges.iter().zip(&hidden) {
-        let [a, b] = edge.ends.map(DVec3::xy);
+        let [a, b] = edge.ends;
         let piece = |&(low, high): &Interval| [a.lerp(b, low), a.lerp(b, high)];
         sketch.lines[edge.class as usize].extend(hidden::rest(hidden).iter().map(piece));
         sketch.lines[Class::Hidden as usize].extend(hidden.iter().map(piece));
@@ -249,9 +288,60 @@ pub fn draw(
     let lonely = scene.mesh.lonely_count;
     let dots: Vec<_> = surface.vertices.iter().filter(|(vertex, _)| style.vertices || *vertex < lonely).collect();
     let seen = dots.par_iter().filter(|(vertex, at)| !hider.hides_vertex(*vertex, *at));
-    sketch.dots = seen.map(|(_, at)| at.xy()).collect();
+    let places: Vec<DVec2> = seen.map(|(_, at)| at.xy()).collect();
+    if !places.is_empty() {
+        let diameter = f64::from(style.vertex_size) / 2.0;
+        sketch.dots.push(Dots { name: "vertices", diameter, color: [0; 3], places });
+    }
     stop.check()?;
-    Ok(page::lay_out(sketch, settings, f64::from(style.vertex_size) / 2.0))
+    if !subject.notes.is_empty() {
+        let mut lines: BTreeMap<u32, Vec<DVec2>> = BTreeMap::new();
+        for (edge, hidden) in edges.iter().zip(&hidden).filter(|(edge, _)| wanted(edge.class)) {
+            let along = (edge.ends[1] - edge.ends[0]).xy();
+            let is_seen = |t: f64| !hidden.iter().any(|&(low, high)| (low..=high).contains(&t));
+            for (vertex, toward, t) in [(edge.vertices[0], along, NEAR), (edge.vertices[1], -along, 1.0 - NEAR)] {
+                if is_seen(t) {
+                    lines.entry(vertex).or_default().push(toward);
+                }
+            }
+        }
+        let found =
+            notes::find(&subject, &surface, &space, Some(&hider), &lines, (style, settings.letters, Inks::PAPER));
+        sketch.notes = found.notes;
+        sketch.strokes = found.strokes;
+        sketch.dots.extend(found.dots);
+    }
+    if style.axes {
+        sketch.axes = Some(space.axes());
+    }
+    Ok(sketch)
+}
+
+/// Writes notes, and the axes if the style has them, on a picture of the same subject from the same place; `scale` is
+/// pixels per point.
+pub fn write_on(picture: &mut RgbaImage, subject: Subject<'_>, camera: &Camera, style: &Style, scale: f32) {
+    if subject.notes.is_empty() && !style.axes {
+        return;
+    }
+    let size = DVec2::new(picture.width().into(), picture.height().into()) / f64::from(scale);
+    let bounds = subject.scene.bounds(&Style { control: false, ..*style });
+    let space = Space::new(camera, size.x / size.y, &style.cut, bounds);
+    let inks = Inks::of(style.theme);
+    let mut sketch = Sketch::default();
+    if !subject.notes.is_empty() {
+        let surface = Surface::new(subject.scene, subject.mesh, &space, false);
+        let hider = style.faces.then(|| Hider::new(&surface.triangles));
+        let mut lines: BTreeMap<u32, Vec<DVec2>> = BTreeMap::new();
+        for edge in &surface.edges {
+            let along = (edge.ends[1] - edge.ends[0]).xy();
+            lines.entry(edge.vertices[0]).or_default().push(along);
+            lines.entry(edge.vertices[1]).or_default().push(-along);
+        }
+        let found = notes::find(&subject, &surface, &space, hider.as_ref(), &lines, (style, ON_SCREEN, inks));
+        (sketch.notes, sketch.strokes, sketch.dots) = (found.notes, found.strokes, found.dots);
+    }
+    sketch.axes = style.axes.then(|| space.axes());
+    raster::over(picture, &page::overlay(sketch, size, inks), f64::from(scale));
 }
 
 /// Without the lines that the style leaves out.

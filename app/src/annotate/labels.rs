@@ -12,11 +12,12 @@
 use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3, Vec3};
-use vv::mesh::{Value, Vertex};
+use vv::mesh::faces::Faces;
+use vv::mesh::{Mesh, Value, Vertex};
 use vv::stop::{Stop, Stopped};
 
-use super::Subject;
 use super::scale::short;
+use super::{Subject, Tint};
 use crate::camera::{Camera, picture_point};
 use crate::scene::{Plane, Scene, Style, unpack};
 
@@ -98,7 +99,9 @@ pub fn place(
     before: &[Placed],
     stop: &Stop,
 ) -> Result<Vec<Placed>, Stopped> {
-    let Some(texts) = Texts::of(subject, label) else { return Ok(Vec::new()) };
+    let Some(texts) = Texts::of(subject.mesh, subject.faces, subject.tint.as_deref(), label) else {
+        return Ok(Vec::new());
+    };
     let width = FIRST + FURTHER * (texts.longest() - 1) as f64;
     let mut cells = Cells::new(subject.scene, outlook, DVec2::new(width, HEIGHT), before);
     let part = &subject.scene.mesh;
@@ -125,28 +128,30 @@ pub fn place(
 }
 
 /// What is written at each element.
-enum Texts<'a> {
+pub(crate) enum Texts<'a> {
     Vertices(usize),
-    Degrees(&'a vv::mesh::faces::Faces),
-    Numbers(std::sync::Arc<super::Tint>),
+    Degrees(&'a Faces),
+    Numbers(&'a Tint),
     Property(&'a vv::mesh::Values),
 }
 
 impl<'a> Texts<'a> {
-    fn of(subject: &Subject<'a>, label: &Label) -> Option<Self> {
+    /// `None` if there is nothing to write, or the mesh lacks it.
+    pub fn of(mesh: &'a Mesh, faces: &'a Faces, tint: Option<&'a Tint>, label: &Label) -> Option<Self> {
         Some(match label {
             Label::Nothing => return None,
-            Label::Vertices => Self::Vertices(subject.mesh.vertex_count()),
-            Label::Degrees => Self::Degrees(subject.faces),
-            Label::Numbers => Self::Numbers(subject.tint.clone()?),
+            Label::Vertices => Self::Vertices(mesh.vertex_count()),
+            Label::Degrees => Self::Degrees(faces),
+            Label::Numbers => Self::Numbers(tint?),
             Label::Property(name) => {
-                let properties = subject.mesh.vertex_properties();
+                let properties = mesh.vertex_properties();
                 Self::Property(&properties.iter().find(|property| property.name == *name)?.values)
             }
         })
     }
 
-    fn at_faces(&self) -> bool {
+    /// Whether it is written in faces, not at vertices.
+    pub fn at_faces(&self) -> bool {
         match self {
             Self::Degrees(_) => true,
             Self::Numbers(tint) => tint.field.at_faces,
@@ -174,7 +179,8 @@ impl<'a> Texts<'a> {
         }
     }
 
-    fn text(&self, element: usize) -> String {
+    /// That of a vertex or face.
+    pub fn text(&self, element: usize) -> String {
         match self {
             Self::Vertices(_) => Vertex::from_index(element).map_or(String::new(), |v| v.to_string()),
             Self::Degrees(faces) => faces.get(element).len().to_string(),

@@ -1,12 +1,12 @@
 //! How pictures look.
 
-use app::annotate::{Annotations, Arrows, Quantity};
-use app::figure::{Class, Line, Page, Settings};
+use app::annotate::{Annotations, Arrows, Label, Quantity};
+use app::figure::{Class, Line, Notes, Page, Settings};
 use app::inspect::lineage::Lineage;
 use app::scene::{Axis, Cut, Style, Surface, Theme};
 use clap::Args;
-use vv::mesh::Mesh;
 use vv::mesh::faces::Faces;
+use vv::mesh::{Mesh, Vertex};
 
 use super::paper;
 
@@ -23,8 +23,16 @@ pub struct LookArguments {
     /// Draw arrows: vertex-normals, face-normals, or a vertex property of type vec.
     #[arg(long, value_name = "WHAT", value_parser = arrows)]
     arrows: Option<Arrows>,
-    /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, occlusion, grid, dark,
-    /// transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out.
+    /// Write at what is seen: vertices (what they are called), degrees (in faces, how many corners they have), numbers (of
+    /// the colours), or the value of a vertex property.
+    #[arg(long, value_name = "WHAT", value_parser = labels)]
+    labels: Option<Label>,
+    /// Number the neighbours of this vertex in the order of its ring, with arrows from each to the next; vertices are
+    /// counted from 1. May be repeated.
+    #[arg(long, value_name = "NUMBER", value_parser = vertex)]
+    ring: Vec<Vertex>,
+    /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, occlusion, grid, axes,
+    /// dark, transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out.
     #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word)]
     style: Vec<Word>,
     /// Cut the mesh open across an axis, x, y, z or view; `-x` keeps the other side, `x:0.5` cuts elsewhere than in the
@@ -32,7 +40,7 @@ pub struct LookArguments {
     #[arg(long, value_name = "AXIS[:PLACE]", allow_hyphen_values = true, value_parser = cut)]
     cut: Option<Cut>,
     /// Size of figures: a width such as 85mm, or a width and a height that they fit into, such as 85x60mm. Default:
-    /// 120x160mm.
+    /// 120x160mm, of several side by side 160mm.
     #[arg(long, value_name = "W[xH]mm", value_parser = paper::page)]
     page: Option<Page>,
     /// How figures draw lines that are outline, boundary, crease, inner, control or hidden: width in points, colour, and
@@ -40,6 +48,9 @@ pub struct LookArguments {
     /// does not. May be repeated.
     #[arg(long, value_name = "CLASS[=LOOK]", value_parser = paper::line)]
     line: Vec<(Class, Option<Line>)>,
+    /// Height of letters in figures, in points. Default: 7.
+    #[arg(long, value_name = "POINTS", value_parser = paper::letters)]
+    font_size: Option<f64>,
 }
 
 /// What a picture shows beside mesh and faces.
@@ -49,8 +60,12 @@ pub struct Look {
     pub style: Style,
     /// What is shown on it.
     pub annotations: Annotations,
+    /// What is written and marked on it.
+    pub notes: Notes,
     /// How a figure is drawn.
     pub figure: Settings,
+    /// Whether its page was asked for.
+    pub has_page: bool,
 }
 
 /// A mesh and where it comes from.
@@ -82,12 +97,14 @@ impl LookArguments {
         self.style.iter().for_each(|word| word.apply(&mut style));
         let mut figure = Settings::default();
         figure.page = self.page.unwrap_or(figure.page);
+        figure.letters = self.font_size.unwrap_or(figure.letters);
         for &(class, line) in &self.line {
             figure.lines[class as usize] = line;
         }
         let (color_by, arrows) = (self.color_by.clone().unwrap_or_default(), self.arrows.clone().unwrap_or_default());
         let annotations = Annotations { color_by, range: self.color_range, arrows, ..Annotations::default() };
-        Look { style, annotations, figure }
+        let notes = Notes { labels: self.labels.clone().unwrap_or_default(), rings: self.ring.clone() };
+        Look { style, annotations, notes, figure, has_page: self.page.is_some() }
     }
 }
 
@@ -95,7 +112,7 @@ impl LookArguments {
 #[derive(Debug, Clone, Copy)]
 struct Word(&'static str, bool);
 
-const WORDS: [&str; 12] = [
+const WORDS: [&str; 13] = [
     "faces",
     "edges",
     "vertices",
@@ -103,6 +120,7 @@ const WORDS: [&str; 12] = [
     "colors",
     "occlusion",
     "grid",
+    "axes",
     "dark",
     "transparent",
     "lights",
@@ -131,6 +149,7 @@ impl Word {
             "colors" => style.colors = on,
             "occlusion" => style.occlusion = on,
             "grid" => style.grid = on,
+            "axes" => style.axes = on,
             "dark" => style.theme = if on { Theme::Dark } else { Theme::Light },
             "transparent" => style.transparent = on,
             "reflection-lines" => style.surface = surface(Surface::ReflectionLines),
@@ -155,6 +174,22 @@ fn arrows(text: &str) -> std::result::Result<Arrows, String> {
         "face-normals" => Ok(Arrows::FaceNormals),
         name => Ok(Arrows::Property(name.to_owned())),
     }
+}
+
+fn labels(text: &str) -> std::result::Result<Label, String> {
+    match text {
+        "" => Err("it is labels of something".to_owned()),
+        "vertices" => Ok(Label::Vertices),
+        "degrees" => Ok(Label::Degrees),
+        "numbers" => Ok(Label::Numbers),
+        name => Ok(Label::Property(name.to_owned())),
+    }
+}
+
+fn vertex(text: &str) -> std::result::Result<Vertex, String> {
+    let number = text.strip_prefix('v').unwrap_or(text).parse().ok();
+    let vertex = number.and_then(|n: usize| Vertex::from_index(n.checked_sub(1)?));
+    vertex.ok_or_else(|| "vertices are counted from 1, such as 7".to_owned())
 }
 
 fn range(text: &str) -> std::result::Result<[f64; 2], String> {

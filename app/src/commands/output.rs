@@ -189,6 +189,19 @@ impl Target {
         self.kind == Kind::Picture
     }
 
+    /// Which figure it is, if it is one.
+    pub fn figure(&self) -> Option<figure::Format> {
+        match self.kind {
+            Kind::Figure(format) => Some(format),
+            _ => None,
+        }
+    }
+
+    /// Whether it shows a mesh, so that it can show several.
+    pub fn is_shown(&self) -> bool {
+        self.is_picture() || self.figure().is_some()
+    }
+
     /// Whether it is a picture that moves.
     pub fn is_film(&self) -> bool {
         self.is_picture() && self.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(FILM))

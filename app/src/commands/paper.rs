@@ -1,4 +1,4 @@
-//! `--page` and `--line`: what figures are like.
+//! `--page`, `--line` and `--font-size`: what figures are like.
 
 use app::figure::{Class, Dash, Line, Page, Settings};
 
@@ -17,6 +17,12 @@ pub fn page(text: &str) -> Result<Page, String> {
         None => (text, None),
     };
     Ok(Page { width: length(width).ok_or_else(wrong)?, height })
+}
+
+/// Reads a height of letters in points.
+pub fn letters(text: &str) -> Result<f64, String> {
+    let points = text.strip_suffix("pt").unwrap_or(text).parse().ok().filter(|x| (1.0..=200.0).contains(x));
+    points.ok_or_else(|| "the height of letters is in points, from 1 to 200".to_owned())
 }
 
 /// Reads a class of lines and how they look.

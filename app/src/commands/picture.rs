@@ -1,9 +1,10 @@
 //! Pictures of meshes without window.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 
 use app::annotate::field::NoField;
-use app::annotate::{ArrowSet, Subject, Tint};
+use app::annotate::{ArrowSet, Label, Subject, Tint};
 use app::camera::Camera;
 use app::figure::{self, Drawing};
 use app::render::{self, Dressing, Headless, RenderError};
@@ -13,6 +14,8 @@ use glam::DQuat;
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, ImageFormat, RgbaImage};
 use vv::diagnostic::{Diagnostic, Severity};
+use vv::mesh::Mesh;
+use vv::mesh::faces::Faces;
 use vv::source::Sources;
 use vv::stop::Stop;
 
@@ -70,18 +73,20 @@ impl Shot<'_> {
 
 /// A mesh ready to be drawn.
 #[derive(Debug)]
-pub struct Exhibit {
+pub struct Exhibit<'a> {
+    mesh: Cow<'a, Mesh>,
+    faces: Cow<'a, Faces>,
     scene: Scene,
     tint: Option<Tint>,
     arrows: ArrowSet,
 }
 
-impl Exhibit {
+impl<'a> Exhibit<'a> {
     /// Of a mesh.
     ///
     /// # Errors
-    /// [`Exit::Usage`] if the mesh lacks what it is to be coloured by; reported.
-    pub fn new(result: look::Result<'_>, look: &Look, reporter: &Reporter) -> Result<Self, Exit> {
+    /// [`Exit::Usage`] if the mesh lacks what is to be shown; reported.
+    pub fn new(result: look::Result<'a>, look: &Look, reporter: &Reporter) -> Result<Self, Exit> {
         let look::Result { mesh, faces, past } = result;
         let annotations = &look.annotations;
         let never = Stop::new();
@@ -112,7 +117,38 @@ impl Exhibit {
                 return fail(reporter, Exit::Usage, error("the picture cannot have these arrows").evidence(why));
             }
         };
-        Ok(Self { scene, tint, arrows })
+        let lacks = match &look.notes.labels {
+            Label::Numbers if tint.is_none() => {
+                Some("it is not coloured by anything: add `--color-by WHAT`".to_owned())
+            }
+            Label::Property(name) if !mesh.vertex_properties().iter().any(|property| property.name == *name) => {
+                Some(format!("no vertex property `{name}` here"))
+            }
+            _ => None,
+        };
+        if let Some(why) = lacks {
+            return fail(reporter, Exit::Usage, error("the picture cannot have these labels").evidence(why));
+        }
+        if let Some(v) = look.notes.rings.iter().find(|v| !mesh.set.contains(**v)) {
+            return fail(reporter, Exit::Usage, error(format!("there is no vertex {v} whose ring could be shown")));
+        }
+        Ok(Self { mesh: Cow::Borrowed(mesh), faces: Cow::Borrowed(faces), scene, tint, arrows })
+    }
+
+    /// The same with a copy of the mesh, if that is needed to draw it.
+    pub fn kept(self, look: &Look, for_figure: bool) -> Exhibit<'static> {
+        let Self { mesh, faces, scene, tint, arrows } = self;
+        let (mesh, faces) = match for_figure || !look.notes.is_empty() {
+            true => (mesh.into_owned(), faces.into_owned()),
+            false => (Mesh::new(), Faces::default()),
+        };
+        Exhibit { mesh: Cow::Owned(mesh), faces: Cow::Owned(faces), scene, tint, arrows }
+    }
+
+    /// What of it is drawn.
+    fn subject<'s>(&'s self, look: &'s Look) -> figure::Subject<'s> {
+        let (mesh, faces, tint) = (&*self.mesh, &*self.faces, self.tint.as_ref());
+        figure::Subject { scene: &self.scene, mesh, faces, tint, notes: &look.notes }
     }
 }
 
@@ -137,15 +173,32 @@ pub fn picture(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) ->
 /// [`Exit::Usage`] if the mesh lacks what it is to be coloured by, or nothing of it is seen; reported.
 pub fn figure(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> Result<Drawing, Exit> {
     let exhibit = Exhibit::new(result, shot.look, reporter)?;
-    let (camera, style) = (camera(&[&exhibit], shot), shot.style());
+    let tile =
+        figure::Tile { sketch: Some(sketch(&exhibit, &camera(&[&exhibit], shot), shot)?), caption: String::new() };
+    sheet(vec![tile], None, &shot.look.figure, reporter)
+}
+
+/// What is seen of a mesh, for a figure.
+///
+/// # Errors
+/// None that is reached.
+pub fn sketch(exhibit: &Exhibit<'_>, camera: &Camera, shot: Shot<'_>) -> Result<figure::Sketch, Exit> {
     let aspect = render::Size::new(shot.size.0, shot.size.1).aspect();
-    let subject =
-        figure::Subject { scene: &exhibit.scene, mesh: result.mesh, faces: result.faces, tint: exhibit.tint.as_ref() };
-    let figure = &shot.look.figure;
-    let Ok(drawing) = figure::draw(subject, &camera, aspect, &style, figure, &Stop::new()) else {
-        return Err(Exit::Budget); // not reached: nobody stops it
-    };
-    match drawing {
+    let (subject, figure) = (exhibit.subject(shot.look), &shot.look.figure);
+    figure::sketch(subject, camera, aspect, &shot.style(), figure, &Stop::new()).map_err(|_| Exit::Budget)
+}
+
+/// A figure of one or several.
+///
+/// # Errors
+/// [`Exit::Usage`] if nothing is seen, reported.
+pub fn sheet(
+    tiles: Vec<figure::Tile>,
+    columns: Option<usize>,
+    settings: &figure::Settings,
+    reporter: &Reporter,
+) -> Result<Drawing, Exit> {
+    match figure::sheet(tiles, columns, settings) {
         Some(drawing) => {
             if !drawing.is_exact {
                 let warning = Diagnostic::new(Severity::Warning, None, figure::ROUGH);
@@ -158,7 +211,7 @@ pub fn figure(result: look::Result<'_>, shot: Shot<'_>, reporter: &Reporter) -> 
 }
 
 /// From where all of these are seen, whole.
-pub fn camera(exhibits: &[&Exhibit], shot: Shot<'_>) -> Camera {
+pub fn camera(exhibits: &[&Exhibit<'_>], shot: Shot<'_>) -> Camera {
     let (style, aspect) = (shot.style(), render::Size::new(shot.size.0, shot.size.1).aspect());
     let scenes: Vec<&Scene> = exhibits.iter().map(|exhibit| &exhibit.scene).collect();
     let fit = |camera| Scene::fit_all(&scenes, camera, &style, aspect);
@@ -177,7 +230,7 @@ pub fn camera(exhibits: &[&Exhibit], shot: Shot<'_>) -> Camera {
 }
 
 /// From where a mesh is seen while one goes around it once, to the right, in so many steps; from everywhere it is whole.
-pub fn around(exhibit: &Exhibit, shot: Shot<'_>, steps: u32) -> Vec<Camera> {
+pub fn around(exhibit: &Exhibit<'_>, shot: Shot<'_>, steps: u32) -> Vec<Camera> {
     let (style, aspect) = (shot.style(), render::Size::new(shot.size.0, shot.size.1).aspect());
     let first = match (camera(&[exhibit], shot), shot.viewpoint) {
         (camera, Some(Viewpoint::At(_))) => camera,
@@ -196,7 +249,7 @@ pub fn around(exhibit: &Exhibit, shot: Shot<'_>, steps: u32) -> Vec<Camera> {
 /// # Errors
 /// [`Exit::NoRenderer`], reported, and those of `take`.
 pub fn draw(
-    exhibits: &[(&Exhibit, Camera)],
+    exhibits: &[(&Exhibit<'_>, Camera)],
     shot: Shot<'_>,
     reporter: &Reporter,
     mut take: impl FnMut(RgbaImage) -> Result<(), Exit>,
@@ -216,7 +269,9 @@ pub fn draw(
     for (exhibit, camera) in exhibits {
         let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
         let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
-        take(headless.dressed_image(&exhibit.scene, dressing, camera, &style, size).map_err(failed)?)?;
+        let mut drawn = headless.dressed_image(&exhibit.scene, dressing, camera, &style, size).map_err(failed)?;
+        figure::write_on(&mut drawn, exhibit.subject(shot.look), camera, &style, size.scale);
+        take(drawn)?;
     }
     Ok(())
 }
@@ -241,7 +296,7 @@ const HASTE: i32 = 10;
 /// # Errors
 /// As [`draw`]; [`Exit::File`] if a side has more than 65535 pixels, reported.
 pub fn film(
-    exhibits: &[(&Exhibit, Camera)],
+    exhibits: &[(&Exhibit<'_>, Camera)],
     shot: Shot<'_>,
     milliseconds: u32,
     reporter: &Reporter,

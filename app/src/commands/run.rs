@@ -37,7 +37,7 @@ use super::{
     warnings_of,
 };
 use cases::Case;
-use plan::{Given, Plan};
+use plan::{Given, Plan, Sheet};
 use sheets::Exhibits;
 use steps::State;
 use summary::{Line, Summary, Timings};
@@ -53,6 +53,7 @@ Examples:
   vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n}.obj'       every generation of both
   vv run terrain.vv -D roughness=0.3:0.8:5 -o 'terrain_{roughness}.obj' -o all.png
   vv run loop.vv -i bunny.obj --generations 0-3 -o steps.png --size 1600x450   side by side
+  vv run loop.vv -i cube.obj --generations 0-3 -o fig.pdf --style no-faces     the same in lines, for a paper
   vv run loop.vv -i bunny.obj -n 2 --turntable 36 -o 'turn_{frame:3}.png' -o turn.gif
 
 ";
@@ -75,14 +76,14 @@ pub struct Arguments {
     /// The rule to apply. Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
     rule: Option<String>,
-    /// The generations that `{n}` in the names of outputs stands for, such as 0,2,4 or 0-3; pictures without `{n}` show
-    /// them side by side. Default: all, and the last one.
+    /// The generations that `{n}` in the names of outputs stands for, such as 0,2,4 or 0-3; pictures and figures
+    /// without `{n}` show them side by side. Default: all, and the last one.
     #[arg(long, value_name = "LIST", value_parser = plan::generations)]
     generations: Option<plan::Generations>,
     /// Go around the mesh in N pictures: `{frame}` in their names is the number of each, from 0; a .gif holds them all.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
     turntable: Option<u32>,
-    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value; pictures without `{w}` show them side by side.
+    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value; pictures and figures without `{w}` show them side by side.
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
     definitions: Vec<(String, String)>,
     #[command(flatten)]
@@ -250,7 +251,8 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
         way,
         reporter,
     };
-    let mut sheets = plan.sheets().iter().filter(|sheet| !sheet.target.is_film());
+    let still = |sheet: &&Sheet| sheet.target.is_picture() && !sheet.target.is_film();
+    let mut sheets = plan.sheets().iter().filter(still);
     sheets.try_for_each(|sheet| run.layout(sheet).map(drop))?;
     run.all(&timings)
 }
@@ -421,7 +423,8 @@ impl Run<'_> {
             }
             timings.render_s += drawing.elapsed().as_secs_f64();
             if on_sheet {
-                made.exhibits.insert((case.index, past.generation), exhibit);
+                made.exhibits
+                    .insert((case.index, past.generation), exhibit.kept(self.shot.look, self.plan.has_figures()));
             }
         }
         made.picture = outputs.picture;

@@ -1,9 +1,12 @@
-//! Lines and areas on paper, and how large the paper is.
+//! Lines, areas and text on paper, and how large the paper is.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::chain::chain;
-use super::{Class, Line, Page, Settings};
+use super::letters::{self, Glyph};
+use super::notes::Inks;
+use super::text::{self, Block};
+use super::{Class, Dash, Line, ON_SCREEN, Page, Settings};
 
 /// A place on the page in hundredths of a point (1/72 inch), from its upper left corner, y down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,28 +33,52 @@ pub struct Path {
     pub closed: bool,
 }
 
+/// A line of text in its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Words {
+    /// What it says.
+    pub text: String,
+    /// Its letters, and where on its line each stands.
+    pub glyphs: Vec<(Glyph, At)>,
+}
+
 /// What is drawn at once.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Layer {
     /// Filled polygons, from back to front.
     Faces(Vec<(Vec<At>, [u8; 3])>),
-    /// Lines of one class.
+    /// Lines of one kind.
     Lines {
         /// Which.
-        class: Class,
+        name: &'static str,
         /// How they look.
         line: Line,
         /// Where they are.
         paths: Vec<Path>,
     },
-    /// Vertices.
+    /// Points of one kind.
     Dots {
+        /// Which.
+        name: &'static str,
         /// In hundredths of a point.
         diameter: i32,
         /// Red, green, blue.
         color: [u8; 3],
         /// Where they are.
         places: Vec<At>,
+    },
+    /// Text of one kind.
+    Text {
+        /// Which.
+        name: &'static str,
+        /// Height of letters in hundredths of a point.
+        size: i32,
+        /// Red, green, blue.
+        color: [u8; 3],
+        /// Colour and width of the lines around letters that keep them apart from what is below.
+        halo: ([u8; 3], i32),
+        /// What is written.
+        words: Vec<Words>,
     },
 }
 
@@ -66,69 +93,379 @@ pub struct Drawing {
     pub is_exact: bool,
 }
 
-/// What is to be drawn, in picture coordinates.
-#[derive(Debug, Default)]
-pub(super) struct Sketch {
-    pub faces: Vec<(Vec<DVec2>, [u8; 3])>,
-    pub lines: [Vec<[DVec2; 2]>; Class::ALL.len()],
-    pub dots: Vec<DVec2>,
-    /// Whether some faces are ordered by distance only.
-    pub is_rough: bool,
+impl Drawing {
+    /// All letters in their sizes, each once and in order.
+    pub(super) fn letters(&self) -> Vec<(Glyph, i32)> {
+        let of = |layer: &Layer| match layer {
+            Layer::Text { size, words, .. } => {
+                words.iter().flat_map(|line| &line.glyphs).map(|(glyph, _)| (*glyph, *size)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let mut all: Vec<_> = self.layers.iter().flat_map(of).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
 }
 
-const DOT: [u8; 3] = [0; 3];
+/// What is to be drawn, in picture coordinates.
+#[derive(Debug, Clone, Default)]
+pub struct Sketch {
+    pub(super) faces: Vec<(Vec<DVec2>, [u8; 3])>,
+    pub(super) lines: [Vec<[DVec3; 2]>; Class::ALL.len()],
+    pub(super) strokes: Vec<Strokes>,
+    pub(super) dots: Vec<Dots>,
+    /// What matters most first.
+    pub(super) notes: Vec<Note>,
+    /// Where the axes point, if they are drawn.
+    pub(super) axes: Option<[DVec3; 3]>,
+    /// Whether some faces are ordered by distance only.
+    pub(super) is_rough: bool,
+}
 
-/// Puts a sketch on the page, as large as it gets; `None` if there is nothing to see.
-pub(super) fn lay_out(sketch: Sketch, settings: &Settings, dot_size: f64) -> Option<Drawing> {
-    let line = |class: Class| settings.lines[class as usize].filter(|_| !sketch.lines[class as usize].is_empty());
-    let widest = Class::ALL.into_iter().filter_map(line).map(|line| line.width).fold(0.0, f64::max);
-    let margin = if sketch.dots.is_empty() { widest } else { widest.max(dot_size) } / 2.0;
+/// Lines beside those of the mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Strokes {
+    pub name: &'static str,
+    pub line: Line,
+    pub pieces: Vec<[DVec2; 2]>,
+    /// Places before tips, and tips, of arrows.
+    pub heads: Vec<[DVec2; 2]>,
+}
 
-    let drawn = Class::ALL.into_iter().filter(|&class| line(class).is_some());
-    let ends = drawn.flat_map(|class| &sketch.lines[class as usize]).flatten();
-    let corners = sketch.faces.iter().flat_map(|(corners, _)| corners);
-    let points = ends.chain(corners).chain(&sketch.dots);
+/// Points of one kind.
+#[derive(Debug, Clone)]
+pub(super) struct Dots {
+    pub name: &'static str,
+    /// In points.
+    pub diameter: f64,
+    pub color: [u8; 3],
+    pub places: Vec<DVec2>,
+}
+
+/// Text at a place.
+#[derive(Debug, Clone)]
+pub(super) struct Note {
+    pub name: &'static str,
+    pub at: DVec2,
+    /// On which side it stands, a unit vector; zero for in the middle.
+    pub toward: DVec2,
+    /// How far off, in points.
+    pub clearance: f64,
+    pub text: String,
+    /// Height of letters in points.
+    pub size: f64,
+    pub color: [u8; 3],
+}
+
+/// A part of a page.
+#[derive(Debug, Clone)]
+pub struct Tile {
+    /// `None` if there is none: its place says so.
+    pub sketch: Option<Sketch>,
+    /// What stands below it.
+    pub caption: String,
+}
+
+/// The room around a drawing in points, beyond its places.
+type Extent = [DVec2; 2];
+
+/// Between tiles, in points.
+const GAP: f64 = 9.0;
+
+/// Tiles stand side by side as long as they are no narrower than this, in points: an inch.
+const LEAST: f64 = 72.0;
+
+/// Puts sketches on a page, all in the same measure, as large as they get; `None` if there is nothing to see. In so many
+/// columns; else in those that leave them largest, or, on a page of any height, in as few rows as can be.
+#[must_use]
+pub fn sheet(tiles: Vec<Tile>, columns: Option<usize>, settings: &Settings) -> Option<Drawing> {
+    let sketches = || tiles.iter().filter_map(|tile| tile.sketch.as_ref());
+    let margin = sketches().map(|sketch| sketch.margin(settings)).fold(0.0, f64::max);
     let nowhere = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (low, high) = points.fold(nowhere, |(low, high), &p| (low.min(p), high.max(p)));
+    let (low, high) =
+        sketches().flat_map(|sketch| sketch.points(settings)).fold(nowhere, |(low, high), p| (low.min(p), high.max(p)));
     if !low.is_finite() {
         return None;
     }
-    let scale = scale(settings.page, high - low, margin);
-    let hundredths = |x: f64| (x * 100.0).round() as i32;
-    let at = |p: &DVec2| At {
-        x: hundredths((p.x - low.x) * scale + margin),
-        y: hundredths((high.y - p.y) * scale + margin),
+    let captioned = tiles.iter().any(|tile| !tile.caption.is_empty());
+    let caption = settings.letters * 8.0 / 7.0;
+    let below = if captioned { 2.1 * caption } else { 0.0 };
+    let room = |columns: usize| {
+        let rows = tiles.len().div_ceil(columns);
+        let part = |mm: f64, parts: usize, less: f64| {
+            const POINTS_PER_MM: f64 = 72.0 / 25.4;
+            // In whole hundredths, so that nothing is rounded up beyond it.
+            let points = (mm * POINTS_PER_MM * 100.0).floor() / 100.0;
+            ((points - GAP * (parts - 1) as f64) / parts as f64 - less).max(1.0)
+        };
+        let width = part(settings.page.width, columns, 0.0);
+        DVec2::new(width, settings.page.height.map_or(f64::INFINITY, |height| part(height, rows, below)))
     };
-    let corner = at(&DVec2::new(high.x, low.y));
-    let margin = hundredths(margin);
+    let frame = Frame { low, high, margin };
+    let blocks: Vec<Vec<Block>> = sketches().map(|sketch| sketch.notes.iter().map(Block::new).collect()).collect();
+    let scale_in = |columns: usize, shown: &[Block]| frame.scale(room(columns), settings.page, shown);
+    let columns = columns.map_or_else(
+        || best_columns(tiles.len(), settings.page, |n| (room(n), scale_in(n, &[]))),
+        |n| n.clamp(1, tiles.len()),
+    );
 
-    let mut layers = Vec::new();
-    if !sketch.faces.is_empty() {
-        let faces = sketch.faces.iter().map(|(corners, color)| (corners.iter().map(at).collect(), *color));
-        layers.push(Layer::Faces(faces.collect()));
-    }
-    for class in Class::ALL {
-        if let Some(line) = line(class) {
-            let pieces = sketch.lines[class as usize].iter().map(|ends| [at(&ends[0]), at(&ends[1])]);
-            layers.push(Layer::Lines { class, line, paths: chain(pieces.collect()) });
+    // Labels that hide each other depend on the measure, and it on the labels.
+    let shown = |scale: f64| -> Vec<Vec<Block>> {
+        blocks.iter().map(|blocks| text::apart(blocks.iter().cloned(), |p| p * scale)).collect()
+    };
+    let scale = scale_in(columns, &shown(scale_in(columns, &[])).concat());
+    let kept = shown(scale);
+    let [left_below, right_above] = frame.extent(scale, &kept.concat());
+    let cell = right_above - left_below;
+
+    let mut drawing = Builder::new(settings, Inks::PAPER);
+    let mut kept = kept.into_iter();
+    let step = cell + DVec2::new(GAP, GAP + below);
+    for (index, tile) in tiles.into_iter().enumerate() {
+        let corner = DVec2::new((index % columns) as f64, (index / columns) as f64) * step;
+        if captioned {
+            let at = corner + DVec2::new(cell.x / 2.0, cell.y + 1.3 * caption);
+            drawing.caption(&tile.caption, at, caption, cell.x + GAP / 2.0);
+        }
+        match tile.sketch {
+            Some(sketch) => {
+                let at = |p: DVec2| corner + DVec2::new(p.x * scale - left_below.x, right_above.y - p.y * scale);
+                drawing.add(sketch, kept.next().unwrap_or_default(), at, corner + DVec2::new(0.0, cell.y));
+            }
+            None => drawing.caption("failed", corner + cell / 2.0, caption, cell.x),
         }
     }
-    if !sketch.dots.is_empty() {
-        let places = sketch.dots.iter().map(at).collect();
-        layers.push(Layer::Dots { diameter: hundredths(dot_size), color: DOT, places });
-    }
-    Some(Drawing { size: At { x: corner.x + margin, y: corner.y + margin }, layers, is_exact: !sketch.is_rough })
+    let rows = drawing.tiles.div_ceil(columns).max(1);
+    let across = columns.min(drawing.tiles.max(1)) as f64;
+    let size = DVec2::new(across * step.x - GAP, rows as f64 * step.y - GAP);
+    Some(drawing.finish(size))
 }
 
-/// Points for each unit of the picture.
-fn scale(page: Page, size: DVec2, margin: f64) -> f64 {
-    const POINTS_PER_MM: f64 = 72.0 / 25.4;
-    // In whole hundredths, so that nothing is rounded up beyond it.
-    let room = |mm: f64| ((mm * POINTS_PER_MM * 100.0).floor() / 100.0 - 2.0 * margin).max(1.0);
-    let across = room(page.width) / size.x;
-    let down = page.height.map_or(f64::INFINITY, room) / size.y;
-    // What is no wider than a line, or no wider and no higher.
-    let sizes = [across, down, room(page.width) / size.y];
-    let scale = if size.x > 1e-9 { across.min(down) } else { sizes[1].min(sizes[2]) };
-    if scale.is_finite() { scale } else { 1.0 }
+/// Notes and axes for a picture of this size in points.
+pub(super) fn overlay(sketch: Sketch, size: DVec2, inks: Inks) -> Drawing {
+    let settings = Settings { letters: ON_SCREEN, ..Settings::default() };
+    let at = |p: DVec2| DVec2::new(p.x, -p.y) * (size.y / 2.0) + size / 2.0;
+    let inside = |block: &Block| {
+        let [low, high] = block.bounds(size.y / 2.0);
+        low.x > -size.x / 2.0 && high.x < size.x / 2.0 && low.y > -size.y / 2.0 && high.y < size.y / 2.0
+    };
+    let kept = text::apart(sketch.notes.iter().map(Block::new).filter(inside), |p| p * (size.y / 2.0));
+    let mut drawing = Builder::new(&settings, inks);
+    drawing.add(sketch, kept, at, DVec2::new(14.0, size.y - 14.0));
+    drawing.finish(size)
+}
+
+/// In how many columns so many tiles stand; `room` is what one has, and its measure.
+fn best_columns(count: usize, page: Page, room: impl Fn(usize) -> (DVec2, f64)) -> usize {
+    if page.height.is_none() {
+        return (1..=count).rev().find(|&columns| room(columns).0.x >= LEAST).unwrap_or(1);
+    }
+    // The first of equals has the fewest columns; an empty place costs as much as a tenth of the measure.
+    let worth = |columns: &usize| {
+        let empty = columns * count.div_ceil(*columns) - count;
+        room(*columns).1 * 10.0 / (10.0 + empty as f64 / count as f64 * 10.0)
+    };
+    (1..=count).rev().max_by(|a, b| worth(a).total_cmp(&worth(b))).unwrap_or(1)
+}
+
+/// What a page has to hold.
+struct Frame {
+    low: DVec2,
+    high: DVec2,
+    /// In points.
+    margin: f64,
+}
+
+impl Frame {
+    /// The lower left and the upper right corner in points, y up.
+    fn extent(&self, scale: f64, blocks: &[Block]) -> Extent {
+        let own = [self.low * scale - self.margin, self.high * scale + self.margin];
+        blocks.iter().fold(own, |[low, high], block| {
+            let [l, h] = block.bounds(scale);
+            [low.min(l), high.max(h)]
+        })
+    }
+
+    /// Points for each unit of the picture, so that everything fits.
+    fn scale(&self, room: DVec2, page: Page, blocks: &[Block]) -> f64 {
+        let size = self.high - self.low;
+        let bare = room - 2.0 * self.margin;
+        let bare = bare.max(DVec2::ONE);
+        let (across, down) = (bare.x / size.x, bare.y / size.y);
+        // What is no wider than a line, or no wider and no higher.
+        let tall = if page.height.is_some() { down.min(bare.x / size.y) } else { bare.x / size.y };
+        let scale = if size.x > 1e-9 { across.min(down) } else { tall };
+        let scale = if scale.is_finite() { scale } else { 1.0 };
+        let fits = |scale: f64| {
+            let [low, high] = self.extent(scale, blocks);
+            (high - low).cmple(room + 1e-9).all()
+        };
+        if blocks.is_empty() || fits(scale) {
+            return scale;
+        }
+        // The width is convex in the measure: what fits lies below what does not. Something has to be left of the mesh.
+        let (mut low, mut high) = (scale * 0.1, scale);
+        for _ in 0..40 {
+            let middle = (low + high) / 2.0;
+            *if fits(middle) { &mut low } else { &mut high } = middle;
+        }
+        low
+    }
+}
+
+impl Sketch {
+    /// The room that the widest line takes beyond its places, in points.
+    fn margin(&self, settings: &Settings) -> f64 {
+        let lines = Class::ALL.into_iter().filter_map(|class| self.line(class, settings)).map(|line| line.width);
+        let strokes = self.strokes.iter().map(|strokes| strokes.line.width);
+        let dots = self.dots.iter().filter(|dots| !dots.places.is_empty()).map(|dots| dots.diameter);
+        lines.chain(strokes).chain(dots).fold(0.0, f64::max) / 2.0
+    }
+
+    /// How lines of a class look, if there are any.
+    fn line(&self, class: Class, settings: &Settings) -> Option<Line> {
+        settings.lines[class as usize].filter(|_| !self.lines[class as usize].is_empty())
+    }
+
+    fn points<'a>(&'a self, settings: &'a Settings) -> impl Iterator<Item = DVec2> + 'a {
+        let drawn = Class::ALL.into_iter().filter(|&class| self.line(class, settings).is_some());
+        let ends = drawn.flat_map(|class| &self.lines[class as usize]).flatten().map(|p| p.xy());
+        let corners = self.faces.iter().flat_map(|(corners, _)| corners).copied();
+        let strokes = self.strokes.iter().flat_map(|strokes| &strokes.pieces).flatten().copied();
+        let dots = self.dots.iter().flat_map(|dots| &dots.places).copied();
+        ends.chain(corners).chain(strokes).chain(dots)
+    }
+}
+
+/// Layers in the order in which they are drawn, each kind one.
+struct Builder<'a> {
+    settings: &'a Settings,
+    inks: Inks,
+    faces: Vec<(Vec<At>, [u8; 3])>,
+    lines: Vec<(&'static str, Line, Vec<[At; 2]>)>,
+    dots: Vec<Layer>,
+    texts: Vec<Layer>,
+    is_exact: bool,
+    tiles: usize,
+}
+
+impl<'a> Builder<'a> {
+    fn new(settings: &'a Settings, inks: Inks) -> Self {
+        let (faces, lines, dots, texts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { settings, inks, faces, lines, dots, texts, is_exact: true, tiles: 0 }
+    }
+
+    /// Adds a sketch with those of its notes that are shown; `at` says where its places are in points, y down, and
+    /// `corner` is its lower left corner there.
+    fn add(&mut self, sketch: Sketch, notes: Vec<Block>, at: impl Fn(DVec2) -> DVec2, corner: DVec2) {
+        self.tiles += 1;
+        self.is_exact &= !sketch.is_rough;
+        let place = |p: &DVec2| rounded(at(*p));
+        let faces = sketch.faces.iter().map(|(corners, color)| (corners.iter().map(place).collect(), *color));
+        self.faces.extend(faces);
+        for class in Class::ALL {
+            if let Some(line) = sketch.line(class, self.settings) {
+                let pieces = sketch.lines[class as usize].iter().map(|ends| ends.map(|p| place(&p.xy())));
+                self.stroke(class.name(), line, pieces.collect());
+            }
+        }
+        for Strokes { name, line, pieces, heads } in &sketch.strokes {
+            self.stroke(name, *line, pieces.iter().map(|ends| ends.each_ref().map(place)).collect());
+            for [before, tip] in heads.iter().map(|ends| ends.map(&at)) {
+                let back = (before - tip).normalize_or_zero() * line.width * 4.5;
+                let sides = [0.45, -0.45].map(|angle| tip + DVec2::from_angle(angle).rotate(back));
+                self.stroke(name, *line, vec![[rounded(sides[0]), rounded(tip)], [rounded(tip), rounded(sides[1])]]);
+            }
+        }
+        for Dots { name, diameter, color, places } in &sketch.dots {
+            self.dot(name, *diameter, *color, places.iter().map(place).collect());
+        }
+        for block in notes {
+            let center = at(block.at) + DVec2::new(block.offset.x, -block.offset.y);
+            self.write(block.name, &block.text, center, block.size, block.color);
+        }
+        if let Some(axes) = sketch.axes {
+            self.axes(axes, corner);
+        }
+    }
+
+    fn stroke(&mut self, name: &'static str, line: Line, pieces: Vec<[At; 2]>) {
+        match self.lines.iter_mut().find(|(other, look, _)| *other == name && *look == line) {
+            Some((.., all)) => all.extend(pieces),
+            None => self.lines.push((name, line, pieces)),
+        }
+    }
+
+    fn dot(&mut self, name: &'static str, diameter: f64, color: [u8; 3], mut places: Vec<At>) {
+        let (of, size) = (name, hundredths(diameter));
+        let same = |layer: &&mut Layer| matches!(layer, Layer::Dots { name, diameter, .. } if *name == of && *diameter == size);
+        match self.dots.iter_mut().find(same) {
+            Some(Layer::Dots { places: all, .. }) => all.append(&mut places),
+            _ => self.dots.push(Layer::Dots { name, diameter: size, color, places }),
+        }
+    }
+
+    /// A line of text around a point.
+    fn write(&mut self, name: &'static str, text: &str, center: DVec2, size: f64, color: [u8; 3]) {
+        let row = letters::set(text, size);
+        let start = center + DVec2::new(-row.width / 2.0, letters::CAPITAL * size / 2.0);
+        let glyphs = row.glyphs.iter().map(|&(glyph, x)| (glyph, rounded(start + DVec2::new(x, 0.0)))).collect();
+        let words = Words { text: text.to_owned(), glyphs };
+        let (of, ink, height) = (name, color, hundredths(size));
+        let same = |layer: &&mut Layer| matches!(layer, Layer::Text { name, color, size, .. } if (*name, *color, *size) == (of, ink, height));
+        match self.texts.iter_mut().find(same) {
+            Some(Layer::Text { words: all, .. }) => all.push(words),
+            _ => {
+                let halo = (self.inks.paper, hundredths(0.28 * size));
+                self.texts.push(Layer::Text { name, size: height, color, halo, words: vec![words] });
+            }
+        }
+    }
+
+    /// A line of text that is no wider than so many points.
+    fn caption(&mut self, text: &str, center: DVec2, size: f64, width: f64) {
+        self.write("captions", &text::shortened(text, size, width), center, size, self.inks.text);
+    }
+
+    /// The directions of the axes, in a corner.
+    fn axes(&mut self, directions: [DVec3; 3], corner: DVec2) {
+        const COLORS: [[u8; 3]; 3] = [[0xc4, 0x2a, 0x1e], [0x1d, 0x7a, 0x2f], [0x1a, 0x52, 0xcc]];
+        const NAMES: [[&str; 2]; 3] = [["x-axis", "x"], ["y-axis", "y"], ["z-axis", "z"]];
+        let size = self.settings.letters;
+        let length = 2.4 * size;
+        let center = corner + DVec2::new(1.5, -1.5) * length;
+        for ((direction, color), [name, letter]) in directions.into_iter().zip(COLORS).zip(NAMES) {
+            let along = DVec2::new(direction.x, -direction.y);
+            let tip = center + along * length;
+            let line = Line { width: 0.12 * size, color, dash: Dash::Solid };
+            self.stroke(name, line, vec![[rounded(center), rounded(tip)]]);
+            let aside = if along.length() > 0.15 { along.normalize() } else { DVec2::new(0.7, -0.7) };
+            self.write(name, letter, tip + aside * 0.7 * size, size, color);
+        }
+    }
+
+    fn finish(mut self, size: DVec2) -> Drawing {
+        let rank = |name: &str| Class::ALL.iter().position(|class| class.name() == name).unwrap_or(Class::ALL.len());
+        self.lines.sort_by_key(|(name, ..)| rank(name));
+        let mut layers = Vec::new();
+        if !self.faces.is_empty() {
+            layers.push(Layer::Faces(self.faces));
+        }
+        let lines =
+            self.lines.into_iter().map(|(name, line, pieces)| Layer::Lines { name, line, paths: chain(pieces) });
+        layers.extend(lines);
+        layers.extend(self.dots);
+        layers.extend(self.texts);
+        Drawing { size: rounded(size), layers, is_exact: self.is_exact }
+    }
+}
+
+fn rounded(points: DVec2) -> At {
+    At { x: hundredths(points.x), y: hundredths(points.y) }
+}
+
+fn hundredths(points: f64) -> i32 {
+    (points * 100.0).round() as i32
 }

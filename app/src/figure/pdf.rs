@@ -6,6 +6,7 @@ use std::io::Write as _;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
+use super::letters::{Step, cubic, outline};
 use super::page::{At, Drawing, Layer};
 use super::{Dash, hundredths, thousandths};
 
@@ -83,13 +84,45 @@ fn write_layer(text: &mut String, layer: &Layer) -> std::fmt::Result {
                 writeln!(text, "{}{}", path(&line.points), if line.closed { "s" } else { "S" })?;
             }
         }
-        Layer::Dots { diameter, color, places } => {
+        Layer::Dots { diameter, color, places, .. } => {
             // A line without length and with round ends is a dot.
             writeln!(text, "{} w {} RG 1 J [] 0 d", hundredths(*diameter), thousandths(*color))?;
             for At { x, y } in places {
                 let (x, y) = (hundredths(*x), hundredths(*y));
                 writeln!(text, "{x} {y} m {x} {y} l S")?;
             }
+        }
+        Layer::Text { size, color, halo: (paper, width), words, .. } => {
+            let (width, paper, color) = (hundredths(*width), thousandths(*paper), thousandths(*color));
+            writeln!(text, "{width} w {paper} RG {color} rg 1 J [] 0 d")?;
+            for draw in ["S", "f"] {
+                for (glyph, at) in words.iter().flat_map(|line| &line.glyphs) {
+                    // The same letters in the same words, which pack well.
+                    writeln!(text, "q 1 0 0 1 {} {} cm", hundredths(at.x), hundredths(at.y))?;
+                    write_outline(text, &outline(*glyph, *size))?;
+                    writeln!(text, "{draw} Q")?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn write_outline(text: &mut String, steps: &[Step]) -> std::fmt::Result {
+    let pair = |p: At| format!("{} {}", hundredths(p.x), hundredths(p.y));
+    let mut pen = At { x: 0, y: 0 };
+    for step in steps {
+        match *step {
+            Step::Move(p) => write!(text, "{} m ", pair(p))?,
+            Step::Line(p) => write!(text, "{} l ", pair(p))?,
+            Step::Quad(c, p) => {
+                let [a, b] = cubic(pen, c, p);
+                write!(text, "{} {} {} c ", pair(a), pair(b), pair(p))?;
+            }
+            Step::Close => write!(text, "h ")?,
+        }
+        if let Step::Move(p) | Step::Line(p) | Step::Quad(_, p) = *step {
+            pen = p;
         }
     }
     Ok(())

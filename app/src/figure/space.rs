@@ -87,6 +87,11 @@ impl Space {
         DVec3::new(view.x * nearness, view.y * nearness, d * nearness - d) / h
     }
 
+    /// Where the axes of the world point.
+    pub fn axes(&self) -> [DVec3; 3] {
+        DVec3::AXES.map(|axis| self.turn * axis)
+    }
+
     /// The direction to the eye from a point.
     pub fn to_eye(&self, view: DVec3) -> DVec3 {
         if self.parallel { DVec3::Z } else { -view }

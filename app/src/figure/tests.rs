@@ -1,7 +1,9 @@
+mod noted;
+
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use glam::{DVec2, DVec4};
+use glam::{DVec3, DVec4};
 
 use super::*;
 use crate::viewpoint::{Viewpoint, parse};
@@ -28,8 +30,11 @@ impl Case {
     }
 
     fn draw_from(&self, camera: &Camera, style: &Style, settings: &Settings) -> Option<Drawing> {
-        let subject = Subject { scene: &self.scene, mesh: &self.mesh, faces: &self.faces, tint: None };
-        draw(subject, camera, 1.0, style, settings, &Stop::new()).unwrap()
+        draw(self.subject(&Notes::default()), camera, 1.0, style, settings, &Stop::new()).unwrap()
+    }
+
+    fn subject<'a>(&'a self, notes: &'a Notes) -> Subject<'a> {
+        Subject { scene: &self.scene, mesh: &self.mesh, faces: &self.faces, tint: None, notes }
     }
 
     fn draw(&self, settings: &Settings) -> Drawing {
@@ -41,9 +46,9 @@ impl Case {
     fn check(&self, expected: &str) {
         let mut text = String::new();
         for layer in self.draw(&with_hidden()).layers {
-            if let Layer::Lines { class, paths, .. } = layer {
+            if let Layer::Lines { name, paths, .. } = layer {
                 let count: usize = paths.iter().map(|p| p.points.len() - usize::from(!p.closed)).sum();
-                let _ = write!(text, "{count} {}, ", class.name());
+                let _ = write!(text, "{count} {name}, ");
             }
         }
         assert_eq!(text.trim_end_matches(", "), expected);
@@ -92,7 +97,7 @@ fn a_cut_is_lined() {
     let style = Style { cut, ..Style::default() };
     let drawing = case.draw_from(&case.camera(false), &style, &Settings::default()).unwrap();
     let boundary = drawing.layers.iter().find_map(|layer| match layer {
-        Layer::Lines { class: Class::Boundary, paths, .. } => Some(paths),
+        Layer::Lines { name: "boundary", paths, .. } => Some(paths),
         _ => None,
     });
     // A square, its four sides seen from where the other half was.

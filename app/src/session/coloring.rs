@@ -11,6 +11,7 @@ use crate::annotate::cell::Colors;
 use crate::annotate::{Annotations, ArrowSet, Arrows, Label, Quantity};
 use crate::camera::Camera;
 use crate::command::Command;
+use crate::figure::{self, Notes};
 use crate::render::{Dressing, RenderError, Size, render_image};
 use crate::scene::Style;
 use crate::trace;
@@ -34,7 +35,7 @@ struct Current {
 /// The picture of a frame with all that is asked for on it; for another thread than the window's.
 pub(super) fn drawn(
     frame: &Frame,
-    asked: &Annotations,
+    (asked, notes): (&Annotations, &Notes),
     camera: &Camera,
     style: &Style,
     size: Size,
@@ -44,7 +45,11 @@ pub(super) fn drawn(
     let arrows = frame.colors.arrows(&asked.arrows);
     let dressing =
         Dressing { tint: tint.as_deref(), arrows: arrows.as_deref().map(|arrows| (arrows, asked.arrow_length)) };
-    render_image(&frame.scene, dressing, camera, style, size)
+    let mut image = render_image(&frame.scene, dressing, camera, style, size)?;
+    let (mesh, faces) = (&frame.mesh, &frame.faces);
+    let subject = figure::Subject { scene: &frame.scene, mesh, faces, tint: tint.as_deref(), notes };
+    figure::write_on(&mut image, subject, camera, style, size.scale);
+    Ok(image)
 }
 
 impl Session {

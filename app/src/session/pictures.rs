@@ -7,6 +7,8 @@ use std::sync::{Arc, PoisonError};
 use super::Session;
 use super::coloring::drawn;
 use crate::document::ProgramText;
+use crate::figure::Notes;
+use crate::inspect::selection::Item;
 use crate::preferences::{Background, PictureOptions};
 use crate::render::{self, Size};
 use crate::scene::{Style, Theme};
@@ -48,6 +50,15 @@ impl Session {
         }
     }
 
+    /// What is written on the surface: the labels, and the ring of the vertex that is selected.
+    fn notes(&self) -> Notes {
+        let rings = match self.selected()[..] {
+            [Item::Vertex(v)] if self.inspection.walk.is_none() => vec![v],
+            _ => Vec::new(),
+        };
+        Notes { labels: self.document.annotations.labels.clone(), rings }
+    }
+
     pub(super) fn picture_name(&self) -> String {
         let name = &self.document.program.name;
         format!("{}.png", name.strip_suffix(".vv").unwrap_or(name))
@@ -58,15 +69,15 @@ impl Session {
         let Some(frame) = self.frame.clone() else { return };
         let (size, camera) = (self.picture_size(&self.preferences.picture), self.document.camera);
         let style = self.view.map_or(self.document.style, |(_, style)| style);
-        let annotations = self.document.annotations.clone();
+        let (annotations, notes) = (self.document.annotations.clone(), self.notes());
         let name = crate::document::file_name(&path);
         self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
         self.in_background(move || {
             let failed = |problem: String| format!("{}: {problem}", path.display());
             frame.colors.find(&frame.subject(), &annotations, &Stop::new());
             let tint = frame.colors.colors(&annotations.color_by).and_then(Result::ok);
-            let subject =
-                figure::Subject { scene: &frame.scene, mesh: &frame.mesh, faces: &frame.faces, tint: tint.as_deref() };
+            let (mesh, faces) = (&frame.mesh, &frame.faces);
+            let subject = figure::Subject { scene: &frame.scene, mesh, faces, tint: tint.as_deref(), notes: &notes };
             let settings = figure::Settings::default();
             let drawing = figure::draw(subject, &camera, size.aspect(), &style, &settings, &Stop::new());
             let drawing = drawing.map_err(|stopped| failed(stopped.to_string()))?;
@@ -91,12 +102,13 @@ impl Session {
             Background::White => Style { transparent: true, theme: Theme::Light, ..seen },
             Background::Transparent => Style { transparent: true, ..seen },
         };
-        let annotations = self.document.annotations.clone();
+        let (annotations, notes) = (self.document.annotations.clone(), self.notes());
         let name = crate::document::file_name(&path);
         self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
         self.in_background(move || {
             let failed = |problem: String| format!("{}: {problem}", path.display());
-            let mut image = drawn(&frame, &annotations, &camera, &style, size).map_err(|e| failed(e.to_string()))?;
+            let mut image =
+                drawn(&frame, (&annotations, &notes), &camera, &style, size).map_err(|e| failed(e.to_string()))?;
             if options.background == Background::White {
                 render::put_on_white(&mut image);
             }
@@ -110,10 +122,11 @@ impl Session {
     /// The picture as it is in the viewport.
     pub(super) fn copy_image(&mut self) {
         let (Some(frame), Some((size, style))) = (self.frame.clone(), self.view) else { return };
-        let annotations = self.document.annotations.clone();
+        let (annotations, notes) = (self.document.annotations.clone(), self.notes());
         let (camera, clipboard) = (self.document.camera, Arc::clone(&self.clipboard));
         self.in_background(move || {
-            let image = drawn(&frame, &annotations, &camera, &style, size).map_err(|error| error.to_string())?;
+            let image =
+                drawn(&frame, (&annotations, &notes), &camera, &style, size).map_err(|error| error.to_string())?;
             let (width, height) = (image.width() as usize, image.height() as usize);
             let mut clipboard = clipboard.lock().unwrap_or_else(PoisonError::into_inner);
             let failed = |error: arboard::Error| format!("the image cannot be copied: {error}");

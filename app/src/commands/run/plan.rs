@@ -208,6 +208,11 @@ impl Plan {
         &self.sheets
     }
 
+    /// Whether one of them is a figure.
+    pub fn has_figures(&self) -> bool {
+        self.sheets.iter().any(|sheet| sheet.target.figure().is_some())
+    }
+
     /// Whether a generation of a run is on one of them.
     pub fn is_on_sheet(&self, case: &Case, generation: u64) -> bool {
         let shows = |tile: &Tile| tile.case == case.index && tile.generation == generation;
@@ -217,13 +222,13 @@ impl Plan {
     /// Whether a generation is written: each one that is asked for if the name has a place for it, or if pictures of
     /// them stand side by side; else the last one.
     fn is_due(&self, name: &Name, target: &Target, generation: u64) -> bool {
-        let side_by_side = target.is_picture() && self.generations.is_some();
+        let side_by_side = target.is_shown() && self.generations.is_some();
         if name.has(GENERATION) || side_by_side { self.is_shown(generation) } else { self.is_last(generation) }
     }
 
     /// The pictures of an output that are of several; where each has a name of its own there are none.
     fn sheets_of(&self, name: &Name, target: &Target) -> Vec<Sheet> {
-        if !target.is_picture() || self.is_turn(name, target) {
+        if !target.is_shown() || self.is_turn(name, target) {
             return Vec::new();
         }
         let mut by_path: BTreeMap<PathBuf, Vec<Tile>> = BTreeMap::new();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use app::camera::Camera;
+use app::figure::{self, Drawing, Page};
 use app::files::{self, Prepared};
 use app::sheet::{self, Layout};
 
@@ -13,7 +14,10 @@ use super::Run;
 use super::plan::Sheet;
 
 /// What came out, by number of the run and generation.
-pub type Exhibits = BTreeMap<(usize, u64), Exhibit>;
+pub type Exhibits = BTreeMap<(usize, u64), Exhibit<'static>>;
+
+/// Size of a page of several figures, if none was asked for: across both columns of a paper.
+const SPREAD: Page = Page { width: 160.0, height: None };
 
 /// Milliseconds of once around a mesh.
 const TURN: u32 = 6000;
@@ -28,12 +32,19 @@ impl Run<'_> {
     /// [`Exit::Usage`] where there is too little room, [`Exit::NoRenderer`] or [`Exit::File`]; reported.
     pub fn sheets(&self, exhibits: &Exhibits) -> Result<Vec<Prepared>, Exit> {
         let mut prepared = Vec::new();
+        let mut drawing = None;
         for sheet in self.plan.sheets() {
             if sheet.tiles.iter().all(|tile| !exhibits.contains_key(&(tile.case, tile.generation))) {
                 continue;
             }
             self.reporter.progress(format!("drawing {}", sheet.target.path().display()));
-            let bytes = if sheet.target.is_film() {
+            let bytes = if let Some(format) = sheet.target.figure() {
+                let drawing = match &drawing {
+                    Some((tiles, drawing)) if *tiles == sheet.tiles => drawing,
+                    _ => &drawing.insert((sheet.tiles.clone(), self.figure(sheet, exhibits)?)).1,
+                };
+                figure::write(drawing, format)
+            } else if sheet.target.is_film() {
                 picture::film(&self.seen(sheet, exhibits, self.shot), self.shot, STILL, self.reporter)?
             } else {
                 picture::png(&self.sheet(sheet, exhibits)?, self.reporter)?
@@ -48,7 +59,7 @@ impl Run<'_> {
     ///
     /// # Errors
     /// [`Exit::NoRenderer`] or [`Exit::File`]; reported.
-    pub fn frames(&self, exhibit: &Exhibit, turn: &[Target]) -> Result<Vec<Prepared>, Exit> {
+    pub fn frames(&self, exhibit: &Exhibit<'_>, turn: &[Target]) -> Result<Vec<Prepared>, Exit> {
         let count = self.plan.frames();
         let seen: Vec<_> =
             picture::around(exhibit, self.shot, count).into_iter().map(|camera| (exhibit, camera)).collect();
@@ -110,8 +121,25 @@ impl Run<'_> {
         Ok(sheet::compose(&layout, &tiles, style.theme, style.transparent))
     }
 
+    /// A page of figures, in one measure.
+    fn figure(&self, sheet: &Sheet, exhibits: &Exhibits) -> Result<Drawing, Exit> {
+        let mut seen = self.seen(sheet, exhibits, self.shot).into_iter();
+        let mut tiles = Vec::new();
+        for tile in &sheet.tiles {
+            let found = exhibits.get(&(tile.case, tile.generation)).and_then(|_| seen.next());
+            let sketch = found.map(|(exhibit, camera)| picture::sketch(exhibit, &camera, self.shot)).transpose()?;
+            tiles.push(figure::Tile { sketch, caption: tile.label.clone() });
+        }
+        let look = self.shot.look;
+        let mut settings = look.figure;
+        if !look.has_page {
+            settings.page = SPREAD;
+        }
+        picture::sheet(tiles, sheet.columns, &settings, self.reporter)
+    }
+
     /// What there is of a sheet, and from where it is seen: all that comes of one mesh from one place.
-    fn seen<'e>(&self, sheet: &Sheet, exhibits: &'e Exhibits, shot: Shot<'_>) -> Vec<(&'e Exhibit, Camera)> {
+    fn seen<'e>(&self, sheet: &Sheet, exhibits: &'e Exhibits, shot: Shot<'_>) -> Vec<(&'e Exhibit<'static>, Camera)> {
         let found: Vec<_> = sheet.tiles.iter().map(|tile| exhibits.get(&(tile.case, tile.generation))).collect();
         let mut cameras = BTreeMap::new();
         for tile in &sheet.tiles {

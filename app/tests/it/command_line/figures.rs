@@ -55,3 +55,79 @@ fn a_figure_is_of_the_kind_that_its_name_says() {
     assert!(fs::read(folder.path("a.pdf")).unwrap().starts_with(b"%PDF-1.4\n"));
     assert!(folder.read("a.svg").contains("<g id=\"faces\""));
 }
+
+/// What is written on a figure, in its order.
+fn written(svg: &str) -> Vec<String> {
+    let document = roxmltree::Document::parse(svg).unwrap();
+    document.descendants().filter_map(|node| node.attribute("aria-label")).map(str::to_owned).collect()
+}
+
+#[test]
+fn labels_are_written_at_what_is_seen() {
+    let folder = Folder::with(&[]);
+    let labels = |options: &str| {
+        folder.check(&format!("mesh convert octahedron.obj -o a.svg {options}"), 0, "");
+        written(&folder.read("a.svg"))
+    };
+    assert_eq!(labels("").len(), 0);
+    assert_eq!(labels("--labels vertices --view front"), ["v1", "v2", "v3", "v4", "v5"]);
+    assert_eq!(labels("--labels degrees --view front"), ["3"; 4]);
+    assert_eq!(labels("--labels numbers --color-by valence --view front"), ["4"; 5]);
+    assert_eq!(labels("--ring v5 --view front --style axes"), ["1", "2", "3", "4", "x", "y", "z"]);
+    let large = |size: &str| labels(&format!("--labels vertices --font-size {size}")).len();
+    assert!(large("150") < large("7pt"));
+}
+
+#[test]
+fn labels_that_a_mesh_cannot_have_are_refused() {
+    check("mesh convert octahedron.obj -o a.svg --labels heat", 2, "no vertex property `heat` here");
+    check("mesh convert octahedron.obj -o a.svg --labels numbers", 2, "add `--color-by WHAT`");
+    check("mesh convert octahedron.obj -o a.svg --ring 7", 2, "there is no vertex v7 whose ring could be shown");
+    check("mesh convert octahedron.obj -o a.svg --ring 0", 2, "vertices are counted from 1");
+    check("mesh convert octahedron.obj -o a.svg --font-size 0", 2, "the height of letters is in points");
+}
+
+#[test]
+fn pictures_have_labels_too() {
+    let folder = Folder::with(&[]);
+    folder.check("mesh convert octahedron.obj -o a.png --size 200x200", 0, "");
+    folder.check("mesh convert octahedron.obj -o b.png --size 200x200 --labels vertices --ring 1 --style axes", 0, "");
+    let [a, b] = ["a.png", "b.png"].map(|name| image::open(folder.path(name)).unwrap().into_rgba8());
+    let changed = a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count();
+    assert!((200..8000).contains(&changed), "{changed} pixels");
+}
+
+#[test]
+fn several_generations_stand_side_by_side_in_one_measure() {
+    let folder = Folder::with(&[("same.vv", "void step(mesh& S) { }\n")]);
+    folder.check("run same.vv -i octahedron.obj --generations 0-2 -o a.svg -o a.pdf --view front", 0, "");
+    let text = folder.read("a.svg");
+    assert_eq!(written(&text), ["generation 0", "generation 1", "generation 2"]);
+    assert!(text.contains(" width=\"160mm\""), "{text}");
+    assert_eq!(text.matches("id=\"faces\"").count(), 1, "each name once");
+    folder.check("run same.vv -i octahedron.obj --generations 0-3 -o b_{n}.svg --view front", 0, "");
+    assert!(written(&folder.read("b_3.svg")).is_empty());
+    // In rows, where the page is high.
+    let size = |page: &str| {
+        folder.check(
+            &format!("run same.vv -i octahedron.obj --generations 0-3 -o c.eps --view front --page {page}"),
+            0,
+            "",
+        );
+        let text = folder.read("c.eps");
+        let mut numbers = text.lines().nth(2).unwrap().split(' ').skip(3).map(|x| x.parse::<f64>().unwrap());
+        (numbers.next().unwrap(), numbers.next().unwrap())
+    };
+    let (across, down) = size("100x120mm");
+    assert!(across < 1.2 * down && down < 1.3 * across, "{across} {down}: two rows of two");
+    let (across, down) = size("170mm");
+    assert!(across > 3.0 * down, "{across} {down}: one row");
+}
+
+#[test]
+fn values_that_are_swept_stand_side_by_side_and_a_run_that_fails_leaves_its_place() {
+    let text = "param double w = 1;\nvoid step(mesh& S) { forall v in S v$pos *= 1 / (1 - floor(w)); }\n";
+    let folder = Folder::with(&[("grow.vv", text)]);
+    folder.check("run grow.vv -i octahedron.obj -D w=0.5,0.75 -o a.svg", 0, "");
+    assert_eq!(written(&folder.read("a.svg")), ["w = 0.5", "w = 0.75"]);
+}
