@@ -326,6 +326,10 @@ impl Command {
             Self::Choose(Purpose::SaveProject) => {
                 ("Save project as…", "save program, mesh, parameters and view together", &[])
             }
+            Self::Choose(Purpose::OpenStyle) => ("Load style…", "show things as a style file says", &[]),
+            Self::Choose(Purpose::SaveStyle) => {
+                ("Save style…", "save how things are shown, for other meshes and for `vv run --style`", &[])
+            }
             Self::ForgetRecent => ("Forget recent files", "empty the list of files that were open", &[]),
             Self::Save => {
                 ("Save", "save the program to its file, and the project if one is open", const { &[ctrl(Key::S)] })

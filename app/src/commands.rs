@@ -19,6 +19,7 @@ mod reference;
 mod report;
 mod run;
 mod shell;
+mod style;
 mod view;
 mod watch;
 

@@ -46,6 +46,14 @@ impl FileError {
         Self { path: path.to_owned(), place: None, diagnostic }
     }
 
+    /// A mistake at a place of a file, with what there is instead.
+    #[must_use]
+    pub fn at(path: &Path, place: Option<Place>, message: impl Into<String>, evidence: Option<String>) -> Self {
+        let mut error = Self { place, ..Self::new(path, message) };
+        error.diagnostic.evidence.extend(evidence);
+        error
+    }
+
     /// Whether it was a pipe that nobody reads any more: a reader who has enough, no fault.
     #[must_use]
     pub fn is_closed_pipe(&self) -> bool {

@@ -21,6 +21,7 @@ pub mod scene;
 pub mod session;
 pub mod sheet;
 pub mod store;
+pub mod style_file;
 pub mod trace;
 pub mod viewpoint;
 pub mod watch;

@@ -73,6 +73,7 @@ pub const MENUS: &[Menu] = &[
         groups: &[
             &[Command::Fit, Command::CopyImage, Command::View(ViewAction::RenderOptions)],
             &[Command::Faces, Command::Smooth, Command::Edges, Command::Vertices, Command::Control],
+            &[Command::Choose(Purpose::OpenStyle), Command::Choose(Purpose::SaveStyle)],
             &[
                 Command::Toggle(Panel::Program),
                 Command::Toggle(Panel::Messages),

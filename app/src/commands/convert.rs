@@ -35,6 +35,7 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
         return fail(&reporter, Exit::Usage, error("nothing says where to write").hint("add `-o FILE`"));
     }
     let viewpoint = arguments.output.viewpoint(&reporter)?;
+    let look = arguments.look.look(&reporter)?;
     let targets = arguments.output.targets(&reporter)?;
     let (mesh, _) = input::mesh(&arguments.mesh, &arguments.importing, &reporter)?;
     let faces = match within(arguments.importing.timeout.0, |stop| faces(&mesh, stop)) {
@@ -42,7 +43,7 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
         Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),
     };
     let size = arguments.output.size().unwrap_or(DEFAULT_SIZE);
-    let shot = Shot { size, viewpoint, look: &arguments.look.look() };
+    let shot = Shot { size, viewpoint, look: &look };
     let result = look::Result { mesh: &mesh, faces: &faces, past: &Past::default() };
     let outputs = output::prepare(&targets, shot, false, result, &reporter)?;
     output::commit(outputs.prepared, &reporter)

@@ -1,5 +1,7 @@
 //! How pictures look.
 
+use std::path::PathBuf;
+
 use app::annotate::{Annotations, Arrows, Label, Quantity};
 use app::figure::{Class, Line, Notes, Page, Settings};
 use app::inspect::lineage::Lineage;
@@ -8,7 +10,8 @@ use clap::Args;
 use vv::mesh::faces::Faces;
 use vv::mesh::{Mesh, Vertex};
 
-use super::paper;
+use super::report::Reporter;
+use super::{Exit, error, fail, paper, style};
 
 /// Options of everything that draws pictures.
 #[derive(Debug, Clone, Args)]
@@ -18,7 +21,7 @@ pub struct LookArguments {
     #[arg(long, value_name = "WHAT", value_parser = quantity)]
     color_by: Option<Quantity>,
     /// The numbers at both ends of the colours. Default: what most of the numbers lie between.
-    #[arg(long, value_name = "LOW,HIGH", requires = "color_by", allow_hyphen_values = true, value_parser = range)]
+    #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true, value_parser = range)]
     color_range: Option<[f64; 2]>,
     /// Draw arrows: vertex-normals, face-normals, or a vertex property of type vec.
     #[arg(long, value_name = "WHAT", value_parser = arrows)]
@@ -32,9 +35,16 @@ pub struct LookArguments {
     #[arg(long, value_name = "NUMBER", value_parser = vertex)]
     ring: Vec<Vertex>,
     /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, occlusion, grid, axes,
-    /// dark, transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out.
-    #[arg(long, value_name = "WORDS", value_delimiter = ',', value_parser = word)]
-    style: Vec<Word>,
+    /// dark, transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out. Or a file such as the
+    /// window saves as style: words and all other options go before what it says.
+    #[arg(long, value_name = "WORDS|FILE", value_delimiter = ',', value_parser = style::given)]
+    style: Vec<style::Given>,
+    /// The colour behind pictures in place of paper: white, black, or such as #1c293b. Figures have nothing behind them.
+    #[arg(long, value_name = "COLOR", value_parser = paper::background)]
+    background: Option<[u8; 3]>,
+    /// How finely pictures are drawn, in samples for each pixel: 1, 4, 16 or 64. Default: 4.
+    #[arg(long, value_name = "N", value_parser = samples)]
+    samples: Option<u32>,
     /// Cut the mesh open across an axis, x, y, z or view; `-x` keeps the other side, `x:0.5` cuts elsewhere than in the
     /// middle, from -1 to 1.
     #[arg(long, value_name = "AXIS[:PLACE]", allow_hyphen_values = true, value_parser = cut)]
@@ -66,6 +76,10 @@ pub struct Look {
     pub figure: Settings,
     /// Whether its page was asked for.
     pub has_page: bool,
+    /// The colour behind pictures, in place of what the style has.
+    pub background: Option<[u8; 3]>,
+    /// Samples for each pixel of a picture; `None` is for as many as there are usually.
+    pub samples: Option<u32>,
 }
 
 /// A mesh and where it comes from.
@@ -92,25 +106,47 @@ pub struct Past {
 
 impl LookArguments {
     /// What they say.
-    pub fn look(&self) -> Look {
-        let mut style = Style { cut: self.cut.unwrap_or_default(), ..Style::default() };
-        self.style.iter().for_each(|word| word.apply(&mut style));
-        let mut figure = Settings::default();
-        figure.page = self.page.unwrap_or(figure.page);
-        figure.letters = self.font_size.unwrap_or(figure.letters);
+    ///
+    /// # Errors
+    /// [`Exit::File`] if a style file cannot be read or is wrong; reported.
+    pub fn look(&self, reporter: &Reporter) -> std::result::Result<Look, Exit> {
+        let mut look = style::look(&self.style, reporter)?;
+        look.style.cut = self.cut.unwrap_or(look.style.cut);
+        look.figure.page = self.page.unwrap_or(look.figure.page);
+        look.has_page |= self.page.is_some();
+        look.figure.letters = self.font_size.unwrap_or(look.figure.letters);
         for &(class, line) in &self.line {
-            figure.lines[class as usize] = line;
+            look.figure.lines[class as usize] = line;
         }
-        let (color_by, arrows) = (self.color_by.clone().unwrap_or_default(), self.arrows.clone().unwrap_or_default());
-        let annotations = Annotations { color_by, range: self.color_range, arrows, ..Annotations::default() };
-        let notes = Notes { labels: self.labels.clone().unwrap_or_default(), rings: self.ring.clone() };
-        Look { style, annotations, notes, figure, has_page: self.page.is_some() }
+        if let Some(color_by) = &self.color_by {
+            // The range of other numbers is none for these.
+            (look.annotations.color_by, look.annotations.range) = (color_by.clone(), None);
+        }
+        if self.color_range.is_some() && look.annotations.color_by == Quantity::Plain {
+            return fail(
+                reporter,
+                Exit::Usage,
+                error("`--color-range` needs something to colour by: `--color-by WHAT`"),
+            );
+        }
+        look.annotations.range = self.color_range.or(look.annotations.range);
+        look.annotations.arrows = self.arrows.clone().unwrap_or(look.annotations.arrows);
+        look.notes.labels = self.labels.clone().unwrap_or(look.notes.labels);
+        look.notes.rings.clone_from(&self.ring);
+        look.background = self.background.or(look.background);
+        look.samples = self.samples;
+        Ok(look)
+    }
+
+    /// The files that say how pictures look.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        style::files(&self.style)
     }
 }
 
 /// A word of `--style`, and whether it stands without `no-`.
 #[derive(Debug, Clone, Copy)]
-struct Word(&'static str, bool);
+pub struct Word(&'static str, bool);
 
 const WORDS: [&str; 13] = [
     "faces",
@@ -128,7 +164,8 @@ const WORDS: [&str; 13] = [
     "isophotes",
 ];
 
-fn word(text: &str) -> std::result::Result<Word, String> {
+/// Reads a word.
+pub fn word(text: &str) -> std::result::Result<Word, String> {
     let (text, on) = text.strip_prefix("no-").map_or((text, true), |text| (text, false));
     let known = WORDS.into_iter().find(|word| *word == text).map(|word| Word(word, on));
     known.ok_or_else(|| {
@@ -138,7 +175,8 @@ fn word(text: &str) -> std::result::Result<Word, String> {
 }
 
 impl Word {
-    fn apply(self, style: &mut Style) {
+    /// Changes a style so.
+    pub fn apply(self, style: &mut Style) {
         let Self(word, on) = self;
         let surface = |surface| if on { surface } else { Surface::Lights };
         match word {
@@ -157,6 +195,10 @@ impl Word {
             _ => style.surface = Surface::Lights,
         }
     }
+}
+
+fn samples(text: &str) -> std::result::Result<u32, String> {
+    text.parse().ok().filter(|n| [1, 4, 16, 64].contains(n)).ok_or_else(|| "samples are 1, 4, 16 or 64".to_owned())
 }
 
 fn quantity(text: &str) -> std::result::Result<Quantity, String> {

@@ -56,6 +56,16 @@ pub fn line(text: &str) -> Result<(Class, Option<Line>), String> {
     Ok((class, Some(line)))
 }
 
+/// Reads the colour behind pictures.
+pub fn background(text: &str) -> Result<[u8; 3], String> {
+    match text {
+        "white" => Ok([255; 3]),
+        "black" => Ok([0; 3]),
+        "transparent" => Err("nothing at all is behind pictures with `--style transparent`".to_owned()),
+        _ => color(text).ok_or_else(|| format!("`{text}` is no colour such as white, black, #888 or #1c293b")),
+    }
+}
+
 /// `#rgb` or `#rrggbb`.
 fn color(text: &str) -> Option<[u8; 3]> {
     let digits = text.strip_prefix('#')?;
@@ -80,6 +90,15 @@ mod tests {
         for wrong in ["", "mm", "0mm", "-5mm", "85cm", "1x2x3", "nan", "85x", "1e9mm"] {
             assert!(page(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn a_background_is_a_colour() {
+        assert_eq!((background("white"), background("#1c2")), (Ok([255; 3]), Ok([0x11, 0xcc, 0x22])));
+        for wrong in ["", "grey?", "#12", "888"] {
+            assert!(background(wrong).is_err(), "{wrong}");
+        }
+        assert!(background("transparent").unwrap_err().contains("--style transparent"));
     }
 
     #[test]

@@ -49,6 +49,9 @@ pub fn keep_driver_quiet() {
     }
 }
 
+/// Samples for each pixel, when nobody says.
+const SAMPLES: u32 = 4;
+
 /// What a picture shall be like.
 #[derive(Debug, Clone, Copy)]
 pub struct Shot<'a> {
@@ -67,7 +70,8 @@ impl Shot<'_> {
             Some(Viewpoint::From { up, .. }) => up,
             _ => self.look.style.up,
         };
-        Style { up, ..self.look.style }
+        let transparent = self.look.style.transparent || self.look.background.is_some();
+        Style { up, transparent, ..self.look.style }
     }
 }
 
@@ -265,12 +269,15 @@ pub fn draw(
         reporter.report(&[diagnostic], &Sources::default());
         Exit::NoRenderer
     };
-    let headless = Headless::new(4).map_err(failed)?;
+    let headless = Headless::new(shot.look.samples.unwrap_or(SAMPLES)).map_err(failed)?;
     for (exhibit, camera) in exhibits {
         let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
         let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
         let mut drawn = headless.dressed_image(&exhibit.scene, dressing, camera, &style, size).map_err(failed)?;
         figure::write_on(&mut drawn, exhibit.subject(shot.look), camera, &style, size.scale);
+        if let Some(color) = shot.look.background {
+            render::put_on(&mut drawn, color);
+        }
         take(drawn)?;
     }
     Ok(())

@@ -154,7 +154,7 @@ impl Arguments {
             false => files::compile(&self.program, &files::read_program(&self.program).unwrap_or_default()).1,
         };
         let view = self.output.view_file();
-        let others = self.input.iter().chain(&self.reference).chain(view.as_ref());
+        let others = self.input.iter().chain(&self.reference).chain(view.as_ref()).chain(self.look.files());
         [&self.program].into_iter().chain(others).cloned().chain(looked_at).collect()
     }
 
@@ -199,6 +199,7 @@ pub fn make(arguments: &Arguments, began: Instant, way: &Way) -> Result<Tally, E
 fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Reporter) -> Result<Tally, Exit> {
     check_streams(arguments, reporter)?;
     let viewpoint = arguments.output.viewpoint(reporter)?;
+    let look = arguments.look.look(reporter)?;
     let outputs = arguments.output.formats(reporter)?;
     reporter.begin();
 
@@ -244,7 +245,7 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
         rule: rule.map(|rule| (rule, steps)),
         settings: Settings { params: Vec::new(), seed: arguments.seed, limits, stop: Stop::new() },
         plan: &plan,
-        shot: Shot { size, viewpoint, look: &arguments.look.look() },
+        shot: Shot { size, viewpoint, look: &look },
         reference,
         warnings: warnings_of(&found),
         began,

@@ -95,6 +95,8 @@ fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Ve
         Purpose::OpenProject => ("Open project", "Open"),
         Purpose::SaveProject => ("Save project as", "Save"),
         Purpose::SavePicture => ("Save picture as", "Save"),
+        Purpose::OpenStyle => ("Load style", "Load"),
+        Purpose::SaveStyle => ("Save style as", "Save"),
     };
     ui.heading(title);
     ui.add_space(4.0);
@@ -105,7 +107,7 @@ fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Ve
         response.request_focus();
     }
     let typed = PathBuf::from(path.trim());
-    let saves = !matches!(purpose, Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject);
+    let saves = purpose.saves();
     let named = !path.trim().is_empty();
     if named && saves && typed.exists() {
         ui.label(RichText::new("This file exists and will be replaced.").color(ui.visuals().warn_fg_color));

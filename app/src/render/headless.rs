@@ -27,6 +27,8 @@ const PATIENCE: Duration = Duration::from_secs(20);
 #[derive(Debug)]
 pub struct Headless {
     renderer: Renderer,
+    /// Pixels that are drawn for each one of the picture, along a side.
+    fine: u32,
 }
 
 /// Draws one picture, with smooth outlines.
@@ -53,8 +55,9 @@ pub struct Dressing<'a> {
 }
 
 impl Headless {
-    /// On the adapter whose name contains `WGPU_ADAPTER_NAME`, if that is set, or else on the fastest. `samples` is 1,
-    /// or 4 for smooth outlines.
+    /// On the adapter whose name contains `WGPU_ADAPTER_NAME`, if that is set, or else on the fastest. `samples` are those
+    /// of a pixel: 1, 4 for smooth outlines; 16 and 64, four for each of the 4 or 16 pixels that are drawn in place of
+    /// one, for lines finer than a pixel. Others are taken for the next lower ones.
     ///
     /// # Errors
     /// Without a graphics driver.
@@ -73,7 +76,13 @@ impl Headless {
             .map_err(|error| NoRenderer { cause: error.to_string() })?;
         // What no scope catches, such as a device that is lost, shows when the picture is read.
         device.on_uncaptured_error(std::sync::Arc::new(|error| log::error!("graphics: {error}")));
-        Ok(Self { renderer: Renderer::new(&device, &queue, samples)? })
+        let (samples, fine) = match samples {
+            0..4 => (1, 1),
+            4..16 => (4, 1),
+            16..64 => (4, 2),
+            _ => (4, 4),
+        };
+        Ok(Self { renderer: Renderer::new(&device, &queue, samples)?, fine })
     }
 
     /// Brings a scene to the GPU.
@@ -121,15 +130,25 @@ impl Headless {
             arrows: arrows.as_ref().map(|(arrows, length)| (arrows, *length)),
         };
         let side = TILE.min(self.renderer.device.limits().max_texture_dimension_2d - 2 * MARGIN);
+        let fine = self.fine;
+        let side = side - side % fine;
+        let picture = Size { width: width * fine, height: height * fine, scale: scale * fine as f32 };
         let mut image = RgbaImage::new(width, height);
-        for top in (0..height).step_by(side as usize) {
-            for left in (0..width).step_by(side as usize) {
-                let tile =
-                    Tile { picture: size, left, top, width: side.min(width - left), height: side.min(height - top) };
+        for top in (0..picture.height).step_by(side as usize) {
+            for left in (0..picture.width).step_by(side as usize) {
+                let (right, bottom) = (picture.width.min(left + side), picture.height.min(top + side));
+                let tile = Tile { picture, left, top, width: right - left, height: bottom - top };
                 let drawn = if style.occlusion { tile.with_margin(MARGIN) } else { tile };
                 let target = self.renderer.target(Size { width: drawn.width, height: drawn.height, scale })?;
                 self.renderer.draw_tile(&target, &uploaded, dress, camera, style, drawn)?;
-                self.read(&target, &mut image, tile, [tile.left - drawn.left, tile.top - drawn.top])?;
+                let from = [tile.left - drawn.left, tile.top - drawn.top];
+                if fine == 1 {
+                    self.read(&target, &mut image, tile, from)?;
+                    continue;
+                }
+                let mut pixels = RgbaImage::new(tile.width, tile.height);
+                self.read(&target, &mut pixels, Tile { left: 0, top: 0, ..tile }, from)?;
+                average(&pixels, fine, &mut image, [tile.left / fine, tile.top / fine]);
             }
         }
         if style.transparent {
@@ -216,16 +235,42 @@ fn adapter(name: Option<&str>) -> Result<wgpu::Adapter, String> {
     Err(cause)
 }
 
+/// Puts the mean light of each square of `fine` by `fine` pixels into a picture, from a place on.
+fn average(pixels: &RgbaImage, fine: u32, image: &mut RgbaImage, [left, top]: [u32; 2]) {
+    let light: [f32; 256] = std::array::from_fn(|c| to_linear(c as f32 / 255.0));
+    let count = (fine * fine) as f32;
+    for y in 0..pixels.height() / fine {
+        for x in 0..pixels.width() / fine {
+            let mut sum = [0.0; 4];
+            for (dx, dy) in (0..fine).flat_map(|dy| (0..fine).map(move |dx| (dx, dy))) {
+                let [r, g, b, a] = pixels.get_pixel(x * fine + dx, y * fine + dy).0;
+                let [r, g, b] = [r, g, b].map(|c| light[usize::from(c)]);
+                [r, g, b, f32::from(a)].into_iter().zip(&mut sum).for_each(|(c, sum)| *sum += c);
+            }
+            let [r, g, b, a] = sum.map(|c| c / count);
+            let [r, g, b] = [r, g, b].map(|c| (to_srgb(c) * 255.0).round() as u8);
+            image.put_pixel(left + x, top + y, image::Rgba([r, g, b, a.round() as u8]));
+        }
+    }
+}
+
 /// Lays white behind a picture with transparent places.
 pub fn put_on_white(image: &mut RgbaImage) {
+    put_on(image, [255; 3]);
+}
+
+/// Lays a colour behind a picture with transparent places.
+pub fn put_on(image: &mut RgbaImage, color: [u8; 3]) {
+    let paper = color.map(|c| to_linear(f32::from(c) / 255.0));
     for pixel in image.pixels_mut().filter(|pixel| pixel.0[3] < 255) {
         let [r, g, b, a] = pixel.0;
         let opacity = f32::from(a) / 255.0;
-        let over = |c: u8| {
-            let light = to_linear(f32::from(c) / 255.0) * opacity + (1.0 - opacity);
+        let over = |c: u8, paper: f32| {
+            let light = to_linear(f32::from(c) / 255.0) * opacity + paper * (1.0 - opacity);
             (to_srgb(light) * 255.0).round() as u8
         };
-        pixel.0 = [over(r), over(g), over(b), 255];
+        let [x, y, z] = paper;
+        pixel.0 = [over(r, x), over(g, y), over(b, z), 255];
     }
 }
 
@@ -249,6 +294,15 @@ mod tests {
         let mut image = RgbaImage::from_raw(3, 1, vec![9, 9, 9, 0, 0, 0, 0, 128, 10, 20, 30, 255]).unwrap();
         put_on_white(&mut image);
         assert_eq!(image.into_raw(), [255, 255, 255, 255, 187, 187, 187, 255, 10, 20, 30, 255]);
+    }
+
+    #[test]
+    fn a_pixel_is_the_mean_light_of_those_that_are_drawn_for_it() {
+        let (white, black) = ([255; 4], [0, 0, 0, 255]);
+        let pixels = RgbaImage::from_raw(4, 2, [white, black, white, white, black, white, white, white].concat());
+        let mut image = RgbaImage::new(3, 1);
+        average(&pixels.unwrap(), 2, &mut image, [1, 0]);
+        assert_eq!(image.into_raw(), [[0; 4], [188, 188, 188, 255], white].concat());
     }
 
     #[test]

@@ -19,6 +19,18 @@ pub enum Purpose {
     SaveProject,
     /// To save what is seen.
     SavePicture,
+    /// To see things as a file says.
+    OpenStyle,
+    /// To save how things are seen.
+    SaveStyle,
+}
+
+impl Purpose {
+    /// Whether the file is written.
+    #[must_use]
+    pub fn saves(self) -> bool {
+        !matches!(self, Self::OpenProgram | Self::OpenMesh | Self::OpenProject | Self::OpenStyle)
+    }
 }
 
 /// A question to the user.

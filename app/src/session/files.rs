@@ -12,7 +12,10 @@ use super::{Dialog, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::project::{self, Project};
-use crate::{files, library};
+use crate::{files, library, style_file};
+
+/// What a style is called, when nobody says.
+const STYLE_NAME: &str = "style.json";
 
 /// A file dialog that is gone sooner than this was never there.
 const NO_DIALOG: Duration = Duration::from_millis(1000);
@@ -318,24 +321,21 @@ impl Session {
             Purpose::OpenProject | Purpose::SaveProject => dialog.add_filter("vv projects", &[project::EXTENSION]),
             Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &Format::EXTENSIONS),
             Purpose::SavePicture => dialog.add_filter("pictures and figures", &["png", "svg", "eps", "pdf"]),
+            Purpose::OpenStyle | Purpose::SaveStyle => dialog.add_filter("styles", &[style_file::EXTENSION]),
         };
         dialog = match purpose {
             Purpose::SaveProgram => dialog.set_file_name(&program.name),
             Purpose::ExportMesh => dialog.set_file_name("mesh.obj"),
             Purpose::SaveProject => dialog.set_file_name(self.project_name()),
             Purpose::SavePicture => dialog.set_file_name(self.picture_name()),
-            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => dialog,
+            Purpose::SaveStyle => dialog.set_file_name(STYLE_NAME),
+            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => dialog,
         };
         let (sender, result) = mpsc::channel();
         let wake = Arc::clone(&self.wake);
         std::thread::spawn(move || {
             let chosen = pollster::block_on(async {
-                match purpose {
-                    Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => dialog.pick_file().await,
-                    Purpose::SaveProgram | Purpose::ExportMesh | Purpose::SaveProject | Purpose::SavePicture => {
-                        dialog.save_file().await
-                    }
-                }
+                if purpose.saves() { dialog.save_file().await } else { dialog.pick_file().await }
             });
             let _ = sender.send(chosen.map(|file| file.path().to_owned()));
             wake();
@@ -371,7 +371,8 @@ impl Session {
             Purpose::ExportMesh => "mesh.obj".to_owned(),
             Purpose::SaveProject => self.project_name(),
             Purpose::SavePicture => self.picture_name(),
-            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject => String::new(),
+            Purpose::SaveStyle => STYLE_NAME.to_owned(),
+            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => String::new(),
         };
         self.dialog = Some(Dialog::TypePath { purpose, path });
     }
@@ -395,6 +396,8 @@ impl Session {
             Purpose::OpenProject => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_project(&path)),
             Purpose::SaveProject => self.save_project(&with_extension(path, project::EXTENSION)),
             Purpose::SavePicture => self.picture_to(with_extension(path, "png")),
+            Purpose::OpenStyle => self.open_style(&path),
+            Purpose::SaveStyle => self.save_style(&with_extension(path, style_file::EXTENSION)),
         }
     }
 

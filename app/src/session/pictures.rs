@@ -1,18 +1,21 @@
 //! Pictures out of the window, and programs that are shown as in the gallery.
 
 use std::io::Cursor;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, PoisonError};
 
 use super::Session;
 use super::coloring::drawn;
+use crate::command::Command;
 use crate::document::ProgramText;
 use crate::figure::Notes;
 use crate::inspect::selection::Item;
 use crate::preferences::{Background, PictureOptions};
 use crate::render::{self, Size};
 use crate::scene::{Style, Theme};
+use crate::style_file::StyleFile;
 use crate::{figure, files, gallery, library};
+use vv::diagnostic::Severity;
 use vv::stop::Stop;
 
 impl Session {
@@ -71,7 +74,7 @@ impl Session {
         let style = self.view.map_or(self.document.style, |(_, style)| style);
         let (annotations, notes) = (self.document.annotations.clone(), self.notes());
         let name = crate::document::file_name(&path);
-        self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
+        self.say(Severity::Note, format!("drawing {name} …"));
         self.in_background(move || {
             let failed = |problem: String| format!("{}: {problem}", path.display());
             frame.colors.find(&frame.subject(), &annotations, &Stop::new());
@@ -104,7 +107,7 @@ impl Session {
         };
         let (annotations, notes) = (self.document.annotations.clone(), self.notes());
         let name = crate::document::file_name(&path);
-        self.say(vv::diagnostic::Severity::Note, format!("drawing {name} …"));
+        self.say(Severity::Note, format!("drawing {name} …"));
         self.in_background(move || {
             let failed = |problem: String| format!("{}: {problem}", path.display());
             let mut image =
@@ -117,6 +120,29 @@ impl Session {
             files::write(&path, &bytes.into_inner()).map_err(|e| failed(e.diagnostic.message.clone()))?;
             Ok(format!("saved {name}, {} × {} pixels", size.width, size.height))
         });
+    }
+
+    /// Writes how things are seen, for other meshes and for the command line.
+    pub(super) fn save_style(&mut self, path: &Path) {
+        let style = self.view.map_or(self.document.style, |(_, style)| style);
+        let file = StyleFile { style, annotations: self.document.annotations.clone(), ..StyleFile::default() };
+        let name = crate::document::file_name(path);
+        match file.write(path) {
+            Ok(()) => self.say(Severity::Note, format!("saved {name}; `vv run --style {name}` draws so")),
+            Err(error) => self.say(Severity::Error, error.located().message),
+        }
+    }
+
+    /// Shows things as a file says, but for what belongs to the window: its colours, and that it is not transparent.
+    pub(super) fn open_style(&mut self, path: &Path) {
+        match StyleFile::read(path) {
+            Ok((file, _)) => {
+                let Style { theme, transparent, .. } = self.document.style;
+                self.apply(Command::SetStyle(Style { theme, transparent, ..file.style }));
+                self.apply(Command::SetAnnotations(file.annotations));
+            }
+            Err(error) => self.say(Severity::Error, error.located().message),
+        }
     }
 
     /// The picture as it is in the viewport.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use app::camera::Camera;
 use app::figure::{self, Drawing, Page};
 use app::files::{self, Prepared};
+use app::render;
 use app::sheet::{self, Layout};
 
 use super::super::output::Target;
@@ -117,8 +118,12 @@ impl Run<'_> {
                 picture: exhibits.get(&(tile.case, tile.generation)).and_then(|_| pictures.next()),
             })
             .collect();
-        let style = &self.shot.look.style;
-        Ok(sheet::compose(&layout, &tiles, style.theme, style.transparent))
+        let (style, background) = (&self.shot.look.style, self.shot.look.background);
+        let mut sheet = sheet::compose(&layout, &tiles, style.theme, style.transparent || background.is_some());
+        if let Some(color) = background {
+            render::put_on(&mut sheet, color);
+        }
+        Ok(sheet)
     }
 
     /// A page of figures, in one measure.

@@ -124,3 +124,81 @@ fn a_picture_is_drawn_in_the_style_asked_for() {
     assert_eq!(seen.len(), 6, "all are different");
     folder.check("mesh convert octahedron.obj -o a.png --style smoth", 2, "did you mean `smooth`?");
 }
+
+/// The colour of the pixel in the upper left corner, and of the one in the middle.
+fn corner_and_middle(path: &Path) -> [[u8; 4]; 2] {
+    let picture = image::open(path).unwrap().into_rgba8();
+    [picture.get_pixel(0, 0).0, picture.get_pixel(picture.width() / 2, picture.height() / 2).0]
+}
+
+#[test]
+fn a_style_file_says_what_pictures_look_like_and_the_command_line_goes_before_it() {
+    let look = "{\"style\": {\"edges\": false, \"smooth\": true}, \"annotations\": {\"color_by\": \"x\"},\n\
+                \"background\": \"#ff0000\"}";
+    let folder = Folder::with(&[("look.json", look)]);
+    let shoot = |options: &str| {
+        folder.check(&format!("mesh convert octahedron.obj -o a.png --size 60x45 {options}"), 0, "");
+        fs::read(folder.path("a.png")).unwrap()
+    };
+    let by_file = shoot("--style look.json");
+    assert_eq!(by_file, shoot("--style no-edges,smooth --color-by x --background #f00"));
+    assert_eq!(shoot("--style edges,look.json"), shoot("--style edges,smooth --color-by x --background #f00"));
+    assert_ne!(by_file, shoot("--style look.json --color-by y"));
+    shoot("--style look.json --background #00ff00");
+    assert_eq!(corner_and_middle(&folder.path("a.png"))[0], [0, 255, 0, 255]);
+    folder.check("run move.vv -i octahedron.obj -o b.png --style look.json --size 60x45", 0, "");
+}
+
+#[test]
+fn what_a_style_file_says_wrongly_is_told_at_its_place() {
+    let refused = |text: &str, said: &str| {
+        let arguments = "run endless.vv -i octahedron.obj -o a.png --style look.json --diagnostic-format short";
+        check_file("look.json", text, arguments, 3, said);
+    };
+    refused("{\n \"style\": {\"egdes\": true}}", "look.json:2:12: error: nothing is called `egdes` here");
+    refused("{\"style\": {\"edges\": 1}}", "look.json:1:21: error: invalid type: integer `1`, expected a boolean");
+    refused("{\"page\": \"wide\"}", "look.json:1:10: error: a page is a width in millimetres");
+    refused("{\"lines\": {\"inner\": \"thin\"}}", "look.json:1:21: error: `thin` is no width in points");
+    refused("{\"lines\": {\"outer\": \"1\"}}", "look.json:1:21: error: lines are");
+    check("run endless.vv -i octahedron.obj -o a.png --style none.json", 3, "none.json: there is no such file");
+    check("run endless.vv -i octahedron.obj -o a.png --style smoth", 2, "did you mean `smooth`?");
+}
+
+#[test]
+fn more_samples_make_a_smoother_picture_of_the_same() {
+    let folder = Folder::with(&[]);
+    let shoot = |samples: u32, name: &str| {
+        let options = format!("--size 120x90 --samples {samples} --style no-edges");
+        folder.check(&format!("mesh convert octahedron.obj -o {name} {options}"), 0, "");
+        image::open(folder.path(name)).unwrap().into_rgba8()
+    };
+    let pictures = [1, 4, 16, 64].map(|samples| shoot(samples, "a.png"));
+    let colors = |picture: &image::RgbaImage| picture.pixels().collect::<std::collections::HashSet<_>>().len();
+    let counts = pictures.each_ref().map(colors);
+    assert!(counts.is_sorted() && counts[3] > counts[0] + 20, "{counts:?}");
+    let inside = |picture: &image::RgbaImage| picture.get_pixel(40, 40).0;
+    assert!(pictures.iter().all(|p| inside(p).into_iter().zip(inside(&pictures[0])).all(|(a, b)| a.abs_diff(b) < 3)));
+    check("mesh convert octahedron.obj -o a.png --samples 5", 2, "samples are 1, 4, 16 or 64");
+}
+
+#[test]
+fn a_picture_larger_than_the_gpu_draws_at_once_is_put_together() {
+    let folder = Folder::with(&[]);
+    for samples in [4, 16] {
+        let options = format!("--size 20000x30 --samples {samples} --view front --style no-edges");
+        folder.check(&format!("mesh convert square.off -o a.png {options}"), 0, "");
+        assert_eq!(size(&folder.path("a.png")), (20000, 30));
+    }
+}
+
+#[test]
+fn a_background_is_of_the_colour_asked_for_also_between_the_pictures_of_a_sheet() {
+    let folder = Folder::with(&[]);
+    let arguments = "run move.vv -i octahedron.obj --generations 0,1 -o a.png --size 240x90 --background #204060";
+    folder.check(arguments, 0, "");
+    let picture = image::open(folder.path("a.png")).unwrap().into_rgba8();
+    assert!([(0, 0), (12, 12), (239, 89)].iter().all(|&(x, y)| picture.get_pixel(x, y).0 == [0x20, 0x40, 0x60, 255]));
+    folder.check("mesh convert octahedron.obj -o b.png --size 60x45 --style transparent", 0, "");
+    assert_eq!(corner_and_middle(&folder.path("b.png"))[0], [0; 4]);
+    check("mesh convert octahedron.obj -o a.png --background blue", 2, "`blue` is no colour");
+}

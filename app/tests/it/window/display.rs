@@ -1,7 +1,10 @@
 //! How the mesh is drawn and what is shown on it.
 
+use std::sync::Arc;
+
 use app::annotate::{Arrows, Label, Quantity};
 use app::scene::{Axis, Surface};
+use app::session::Purpose;
 
 use super::*;
 
@@ -136,4 +139,27 @@ fn arrows_are_chosen_and_made_longer() {
     window.key_press_modifiers(Modifiers::SHIFT, Key::N);
     settle(&mut window);
     assert_eq!(window.state().session().document.annotations.arrows, Arrows::VertexNormals);
+}
+
+#[test]
+fn a_style_is_saved_and_loaded_into_another_session() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine");
+    let session = || Session::new(None, None, None, Arc::new(|| {})).unwrap();
+    let mut first = session();
+    first.apply(Command::Smooth);
+    first.apply(Command::ColorBy(Quantity::Valence));
+    first.chosen(Purpose::SaveStyle, path.clone());
+    assert!(first.notice().is_some_and(|(_, text)| text.starts_with("saved mine.json")));
+
+    let mut second = session();
+    assert_ne!(second.document.style, first.document.style);
+    second.chosen(Purpose::OpenStyle, path.with_extension("json"));
+    assert_eq!(second.document.style, first.document.style);
+    assert_eq!(second.document.annotations, first.document.annotations);
+
+    std::fs::write(&path, "{\n \"style\": {\"egdes\": true}}").unwrap();
+    second.chosen(Purpose::OpenStyle, path);
+    assert!(second.notice().is_some_and(|(_, text)| text.ends_with("mine:2:12: nothing is called `egdes` here")));
+    assert_eq!(second.document.style, first.document.style);
 }

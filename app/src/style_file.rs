@@ -1,0 +1,187 @@
+//! How pictures look, as a file: what the window saves and `--style` of the command line draws.
+//!
+//! JSON, with the words of [`crate::project`]. What a file does not say is as by default; what it says and vv does not
+//! know is a mistake, told at its place.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use serde_json::value::RawValue;
+use vv::io::Place;
+
+use crate::annotate::Annotations;
+use crate::files::{self, FileError};
+use crate::scene::Style;
+
+/// What the names of these files end in, where nobody says.
+pub const EXTENSION: &str = "json";
+
+/// How pictures look.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct StyleFile {
+    /// How a mesh is drawn.
+    pub style: Style,
+    /// What is shown on it.
+    pub annotations: Annotations,
+    /// The colour behind pictures, as `--background` takes it.
+    pub background: Option<String>,
+    /// The size of figures, as `--page` takes it.
+    pub page: Option<String>,
+    /// Height of letters in figures, in points.
+    pub font_size: Option<f64>,
+    /// How lines of figures look, as `--line` takes it, by their classes.
+    pub lines: BTreeMap<String, String>,
+}
+
+/// What is wrong with a text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mistake {
+    /// In one sentence.
+    pub message: String,
+    /// What there is instead.
+    pub evidence: Option<String>,
+    /// Where.
+    pub place: Option<Place>,
+}
+
+impl StyleFile {
+    /// Reads a file, and returns its text too, for [`place_of`].
+    ///
+    /// # Errors
+    /// What the file system says, or a [`Mistake`] in the file.
+    pub fn read(path: &Path) -> Result<(Self, String), FileError> {
+        let text = files::read_program(path)?;
+        match Self::parse(&text) {
+            Ok(style) => Ok((style, text)),
+            Err(Mistake { message, evidence, place }) => Err(FileError::at(path, place, message, evidence)),
+        }
+    }
+
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// If it is no JSON, names something that there is not, or gives it a value that it cannot have.
+    pub fn parse(text: &str) -> Result<Self, Mistake> {
+        let style: Self = serde_json::from_str(text).map_err(|error| {
+            let message = error.to_string();
+            let message = message.split(" at line ").next().unwrap_or_default().to_owned();
+            let place = Place::Text { line: error.line() as u32, column: u32::try_from(error.column()).ok() };
+            Mistake { message, evidence: None, place: Some(place).filter(|_| error.line() > 0) }
+        })?;
+        let all = serde_json::to_value(Self::default()).unwrap_or_default();
+        only_known(text, text, &all)?;
+        Ok(style)
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn write(&self, path: &Path) -> Result<(), FileError> {
+        let mut text =
+            serde_json::to_vec_pretty(self).map_err(|error| FileError::at(path, None, error.to_string(), None))?;
+        text.push(b'\n');
+        files::write(path, &text)
+    }
+}
+
+/// Where in a text that was read the value stands that these names lead to, one in the other.
+#[must_use]
+pub fn place_of(text: &str, names: &[&str]) -> Option<Place> {
+    let mut part = text;
+    for name in names {
+        part = members(part)?.get(*name)?.get();
+    }
+    Some(place(text, part.as_ptr() as usize - text.as_ptr() as usize))
+}
+
+/// Whether every name in an object of `text` stands in `all`, and so in the objects in it. Those with names of their own
+/// choice are empty in `all`.
+fn only_known(text: &str, part: &str, all: &Value) -> Result<(), Mistake> {
+    let (Some(found), Some(known)) = (members(part), all.as_object().filter(|known| !known.is_empty())) else {
+        return Ok(());
+    };
+    for (name, value) in found {
+        let value = value.get();
+        match known.get(&name) {
+            Some(all) => only_known(text, value, all)?,
+            None => {
+                let at = value.as_ptr() as usize - text.as_ptr() as usize;
+                let at = text[..at].rfind(&format!("\"{name}\"")).unwrap_or(at);
+                let names: Vec<_> = known.keys().map(|name| format!("`{name}`")).collect();
+                let (message, evidence) = (format!("nothing is called `{name}` here"), names.join(", "));
+                let evidence = Some(format!("there are {evidence}"));
+                return Err(Mistake { message, evidence, place: Some(place(text, at)) });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn members(object: &str) -> Option<BTreeMap<String, &RawValue>> {
+    serde_json::from_str(object).ok()
+}
+
+fn place(text: &str, at: usize) -> Place {
+    let before = &text[..at];
+    let line = before.matches('\n').count() as u32 + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() as u32 + 1;
+    Place::Text { line, column: Some(column) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::annotate::Quantity;
+    use crate::scene::Theme;
+
+    #[track_caller]
+    fn fails(text: &str, line: u32, column: u32, message: &str) -> String {
+        let mistake = StyleFile::parse(text).unwrap_err();
+        assert_eq!(mistake.place, Some(Place::Text { line, column: Some(column) }), "{mistake:?}");
+        assert!(mistake.message.starts_with(message), "{mistake:?}");
+        mistake.evidence.unwrap_or_default()
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("look.json");
+        let mut look = StyleFile { background: Some("#fff".to_owned()), ..StyleFile::default() };
+        (look.style.smooth, look.style.theme) = (true, Theme::Dark);
+        look.annotations.color_by = Quantity::Property("heat".to_owned());
+        look.lines.insert("inner".to_owned(), "none".to_owned());
+        look.write(&path).unwrap();
+        assert_eq!(StyleFile::read(&path).unwrap().0, look);
+    }
+
+    #[test]
+    fn what_a_file_does_not_say_is_as_by_default() {
+        assert_eq!(StyleFile::parse("{}").unwrap(), StyleFile::default());
+        let look = StyleFile::parse("{\"style\": {\"edges\": false}}").unwrap();
+        assert!(!look.style.edges && look.style.faces);
+    }
+
+    #[test]
+    fn what_it_says_wrongly_is_told_at_its_place() {
+        fails("{\n  \"style\": 1\n}", 2, 12, "invalid type: integer `1`, expected struct Style");
+        fails("{\"style\": {\"edges\": 1}}", 1, 21, "invalid type: integer `1`, expected a boolean");
+        fails("{\"style\": {", 1, 11, "EOF while parsing");
+        let there = fails("{\n  \"style\": {\n    \"egdes\": true }}", 3, 5, "nothing is called `egdes` here");
+        assert!(there.contains("`edges`") && there.contains("`cut`"), "{there}");
+        fails("{\"style\": {\"cut\": {\"off\": 1}}}", 1, 20, "nothing is called `off` here");
+        fails("{\"styles\": {}}", 1, 2, "nothing is called `styles` here");
+    }
+
+    #[test]
+    fn a_value_is_found_by_the_names_that_lead_to_it() {
+        let text = "{\n \"page\": \"1mm\", \"lines\": {\"inner\": \"x\"}}";
+        let at = |column| Some(Place::Text { line: 2, column: Some(column) });
+        assert_eq!(place_of(text, &["page"]), at(10));
+        assert_eq!(place_of(text, &["lines", "inner"]), at(36));
+        assert_eq!(place_of(text, &["lines", "outer"]), None);
+    }
+}
