@@ -20,6 +20,7 @@ mod dialogs;
 mod display;
 mod drop;
 mod editor;
+mod editors;
 mod findings;
 mod gallery;
 mod gizmo;
@@ -139,7 +140,7 @@ impl std::error::Error for WindowError {}
 /// The window's content.
 pub struct App {
     session: Session,
-    editor: editor::Editor,
+    editors: editors::Editors,
     pictures: pair::Pictures,
     messages: messages::Messages,
     reference: reference::Reference,
@@ -187,7 +188,7 @@ impl App {
         let session = Session::new(mesh, program, store, Arc::clone(&wake))?;
         Ok(Self {
             session,
-            editor: editor::Editor::default(),
+            editors: editors::Editors::default(),
             pictures: pair::Pictures::new(&render_state, &wake)?,
             messages: messages::Messages::default(),
             reference: reference::Reference::default(),
@@ -255,9 +256,10 @@ impl App {
                     }
                     if session.panels.program {
                         let frame = theme::editor(ui);
-                        egui::CentralPanel::default()
-                            .frame(frame)
-                            .show(ui, |ui| self.editor.show(ui, session, reveal, actions, commands));
+                        egui::CentralPanel::default().frame(frame).show(ui, |ui| {
+                            let editor = self.editors.of(ui.ctx(), session);
+                            editor.show(ui, session, reveal, actions, commands);
+                        });
                     }
                 });
         }
@@ -386,7 +388,7 @@ impl eframe::App for App {
         let mut commands = Vec::new();
         self.keep_focus(ui.ctx());
         if self.session.dialog.is_none() {
-            keys::take(ui.ctx(), &self.session, self.editor.takes_escape(ui.ctx()), &mut commands);
+            keys::take(ui.ctx(), &self.session, self.editors.current().takes_escape(ui.ctx()), &mut commands);
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
         self.panels(ui, &mut commands);

@@ -29,7 +29,7 @@ pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, command
         ui.set_width(380.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         match dialog {
             Dialog::Unsaved { .. } => unsaved(ui, &name, project.is_some(), commands),
-            Dialog::TypePath { purpose, path } => {
+            Dialog::TypePath { purpose, path, .. } => {
                 if let Some(path) = type_path(ui, *purpose, path, commands) {
                     chosen = Some((*purpose, path));
                 }
@@ -126,9 +126,5 @@ fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Ve
             commands.push(Command::CloseDialog);
         }
     });
-    if possible && (go || entered) {
-        commands.push(Command::CloseDialog);
-        return Some(typed);
-    }
-    None
+    (possible && (go || entered)).then_some(typed)
 }

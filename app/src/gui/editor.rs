@@ -52,6 +52,8 @@ pub struct Editor {
     selected: Range<usize>,
     /// What to bring in sight, beside what the session says.
     reveal: Option<Reveal>,
+    /// Tells documents apart.
+    document: u64,
 }
 
 fn id() -> Id {
@@ -114,6 +116,13 @@ impl Editor {
             self.popup = None;
         }
         self.text(ui, session, commands);
+    }
+
+    /// From now on the keys are for this editor, with its cursor where it was.
+    pub fn take_keys(&mut self, ctx: &Context, document: u64) {
+        self.document = document;
+        self.popup = None;
+        self.select(ctx, self.selected.clone());
     }
 
     /// Whether Escape closes something here.
@@ -305,7 +314,7 @@ impl Editor {
         let keys = EventFilter { tab: true, escape, horizontal_arrows: true, vertical_arrows: true };
         let inside = egui::UiBuilder::new().max_rect(area);
         ui.scope_builder(inside, |ui| {
-            ScrollArea::both().id_salt("program").auto_shrink(Vec2b::FALSE).show(ui, |ui| {
+            ScrollArea::both().id_salt(("program", self.document)).auto_shrink(Vec2b::FALSE).show(ui, |ui| {
                 let behind = ui.painter().add(Shape::Noop);
                 let output = TextEdit::multiline(buffer)
                     .id(id())

@@ -44,6 +44,12 @@ pub(super) struct Before {
 }
 
 impl Session {
+    /// Tells documents apart, also after two have changed sides.
+    #[must_use]
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
     /// The document beside this one.
     #[must_use]
     pub fn beside(&self) -> Option<&Beside> {
@@ -120,8 +126,6 @@ impl Session {
             self.dialog = other.dialog.take();
         }
         self.beside = Some(beside);
-        // The editor shows another text.
-        self.reveal.get_or_insert(super::Reveal { range: 0..0, focus: false });
     }
 
     fn close_this(&mut self) {

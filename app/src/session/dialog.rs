@@ -47,6 +47,8 @@ pub enum Dialog {
         purpose: Purpose,
         /// As typed so far.
         path: String,
+        /// What comes after.
+        then: Option<Box<Command>>,
     },
     /// A window crashed; bring back what was unsaved in it?
     Recover {

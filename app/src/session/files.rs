@@ -374,13 +374,17 @@ impl Session {
             Purpose::SaveStyle => STYLE_NAME.to_owned(),
             Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => String::new(),
         };
-        self.dialog = Some(Dialog::TypePath { purpose, path });
+        let then = match self.dialog.take() {
+            Some(Dialog::Unsaved { then }) => Some(then),
+            _ => None,
+        };
+        self.dialog = Some(Dialog::TypePath { purpose, path, then });
     }
 
     /// Does with a path what it was chosen for.
     pub fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
         let then = match self.dialog.take() {
-            Some(Dialog::Unsaved { then }) => Some(*then),
+            Some(Dialog::Unsaved { then } | Dialog::TypePath { then: Some(then), .. }) => Some(*then),
             _ => None,
         };
         match purpose {
@@ -476,4 +480,29 @@ pub(super) fn is_project(path: &Path) -> bool {
 
 fn with_extension(path: PathBuf, extension: &str) -> PathBuf {
     if path.extension().is_some() { path } else { path.with_extension(extension) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn after_a_typed_path_what_was_asked_for_goes_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let check = |then: Command, done: fn(&Session) -> bool| {
+            let path = folder.path().join("mine");
+            let mut session = Session::new(None, None, None, Arc::new(|| {})).unwrap();
+            session.apply(Command::NewProgram);
+            session.apply(Command::Edit("// mine\n".into()));
+            session.apply(then);
+            assert!(matches!(session.dialog, Some(Dialog::Unsaved { .. })) && !done(&session));
+            session.ask_for_path(Purpose::SaveProgram);
+            session.chosen(Purpose::SaveProgram, path.clone());
+            assert_eq!(std::fs::read_to_string(path.with_extension("vv")).unwrap(), "// mine\n");
+            assert!(done(&session) && session.dialog.is_none());
+        };
+        check(Command::Quit, Session::wants_quit);
+        check(Command::OpenExample("butterfly.vv"), |s| s.document.program.name == "butterfly.vv");
+        check(Command::Exhibit { program: "sqrt3.vv", keep_mesh: true }, |s| s.document.program.name == "sqrt3.vv");
+    }
 }

@@ -231,3 +231,47 @@ fn what_is_unsaved_at_both_sides_is_kept_for_the_case_of_a_crash_and_not_once_it
     window.state_mut().apply(Command::AnswerUnsaved(app::command::Answer::Discard));
     until(&mut window, "the right one is forgotten", |_| holds("// left") && !holds("// right") && kept().len() == 1);
 }
+
+#[test]
+fn each_document_has_a_cursor_and_an_undo_of_its_own() {
+    let mut window = loop_and_butterfly();
+    let text = |window: &Harness<'static, App>| window.state().session().document.program.text.to_string();
+    let originals = [text(&window), {
+        pair(&mut window, PairAction::Switch);
+        text(&window)
+    }];
+    pair(&mut window, PairAction::Switch);
+    let field = |window: &Harness<'static, App>| window.get_by_label("Program text").value().unwrap();
+    // At the end of the one, at the beginning of the other.
+    window.get_by_label("Program text").focus();
+    window.step();
+    let ctrl = Modifiers::COMMAND | Modifiers::CTRL;
+    window.key_press_modifiers(ctrl, Key::End);
+    window.step();
+    window.get_by_label("Program text").type_text("1");
+    settle_both(&mut window);
+    press(&mut window, Key::F6);
+    window.key_press_modifiers(ctrl, Key::Home);
+    window.step();
+    window.get_by_label("Program text").type_text("2");
+    settle_both(&mut window);
+    press(&mut window, Key::F6);
+    window.get_by_label("Program text").type_text("3");
+    settle_both(&mut window);
+    assert_eq!(field(&window), format!("{}13", originals[0]));
+    press(&mut window, Key::F6);
+    window.get_by_label("Program text").type_text("4");
+    settle_both(&mut window);
+    assert_eq!(field(&window), format!("24{}", originals[1]));
+    // Each takes back what was typed there.
+    for _ in 0..4 {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        settle_both(&mut window);
+        if text(&window) == originals[1] {
+            break;
+        }
+    }
+    assert_eq!(field(&window), originals[1]);
+    press(&mut window, Key::F6);
+    assert_eq!(field(&window), format!("{}13", originals[0]));
+}
