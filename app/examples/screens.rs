@@ -174,7 +174,8 @@ const STATES: &[State] = &[
         name: "no-file-dialog",
         prepare: |w| {
             let path = String::new();
-            w.state_mut().session_mut().dialog = Some(Dialog::TypePath { purpose: Purpose::OpenMesh, path });
+            w.state_mut().session_mut().dialog =
+                Some(Dialog::TypePath { purpose: Purpose::OpenMesh, path, then: None });
         },
     },
     State {

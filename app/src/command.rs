@@ -105,6 +105,8 @@ pub enum Command {
     End,
     /// To any generation.
     GoTo(u64),
+    /// To any generation, and when it is shown, this.
+    With(u64, Box<Command>),
     /// To any generation, as one of many on the way.
     Scrub(u64),
     /// Steps again and again; and ends that.
@@ -441,6 +443,7 @@ impl Command {
             | Self::Fix(_)
             | Self::Reveal(_)
             | Self::GoTo(_)
+            | Self::With(..)
             | Self::Scrub(_)
             | Self::SetSpeed(_)
             | Self::ChooseRule(_)

@@ -195,6 +195,8 @@ pub struct Session {
     problems: Problems,
 
     playing: Option<Instant>,
+    /// What is to be done when a generation is shown.
+    then: Option<(u64, Command)>,
     /// How often it was played.
     plays: u64,
     text_on_disk: Option<Arc<str>>,
@@ -299,6 +301,7 @@ impl Session {
             program: None,
             problems: Problems::default(),
             playing: None,
+            then: None,
             plays: 0,
             text_on_disk: None,
             program_gone: false,
@@ -378,6 +381,7 @@ impl Session {
             Command::Rewind => self.pause_and_go_to(0),
             Command::End => self.pause_and_go_to(self.last_reached()),
             Command::GoTo(generation) | Command::Scrub(generation) => self.pause_and_go_to(generation),
+            Command::With(generation, then) => self.go_to_and(generation, *then),
             Command::Play if self.playing.is_some() => self.playing = None,
             Command::Play => {
                 self.playing = Some(Instant::now());
@@ -468,6 +472,7 @@ impl Session {
         self.take_choice();
         self.take_background();
         self.play();
+        self.carry_on();
         let flight = self.glide();
         let keep = self.keep();
         let motion = self.animate();

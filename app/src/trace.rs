@@ -1,7 +1,9 @@
 //! Where time goes: spans of work, written down only when asked for.
 //!
 //! With `VV_TRACE=FILE` in the environment, `vv` writes the spans of all threads to the file as Chrome's trace events,
-//! which <https://ui.perfetto.dev> and `chrome://tracing` show as a time line. Else a span costs one relaxed load.
+//! which <https://ui.perfetto.dev> and `chrome://tracing` show as a time line: how long each took (`dur`), and how long the
+//! processor was at it (`tdur`), which is less where the thread waited or others had its turn. Else a span costs one relaxed
+//! load.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -31,19 +33,19 @@ pub struct Span {
 #[must_use = "it ends where it is dropped"]
 pub struct Running {
     name: &'static str,
-    began: Option<Instant>,
+    began: Option<(Instant, Duration)>,
 }
 
 /// Begins a piece of work.
 #[inline]
 pub fn span(name: &'static str) -> Running {
-    Running { name, began: ON.load(Ordering::Relaxed).then(Instant::now) }
+    Running { name, began: ON.load(Ordering::Relaxed).then(|| (Instant::now(), at_work())) }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
-        if let Some(began) = self.began {
-            note(self.name, began, began.elapsed());
+        if let Some((began, worked)) = self.began {
+            note(self.name, began, began.elapsed(), at_work().saturating_sub(worked));
         }
     }
 }
@@ -81,14 +83,28 @@ fn sink() -> MutexGuard<'static, Option<Sink>> {
     SINK.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn note(name: &'static str, since: Instant, time: Duration) {
+/// How long the processor has been at this thread, where the system tells.
+fn at_work() -> Duration {
+    #[cfg(unix)]
+    {
+        let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+        Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
+    }
+    #[cfg(not(unix))]
+    Duration::ZERO
+}
+
+fn note(name: &'static str, since: Instant, time: Duration, work: Duration) {
     match &mut *sink() {
         Some(Sink::Memory(spans)) => spans.push(Span { name, time }),
         Some(Sink::File { file, began }) => {
             let (start, time) = (since.saturating_duration_since(*began).as_micros(), time.as_micros());
+            let work = work.as_micros();
             let thread = thread();
             // Chrome wants no end of the list, so that a program may stop at any time.
-            let line = format!(r#"{{"name":"{name}","ph":"X","ts":{start},"dur":{time},"pid":1,"tid":{thread}}},"#);
+            let line = format!(
+                r#"{{"name":"{name}","ph":"X","ts":{start},"dur":{time},"tdur":{work},"pid":1,"tid":{thread}}},"#
+            );
             // A full disk ends the trace, not the work.
             let written = writeln!(file, "{line}").and_then(|()| if time > 1000 { file.flush() } else { Ok(()) });
             if written.is_err() {

@@ -34,6 +34,7 @@ pub const HANDS: &[(&str, &str)] = &[
     ("Shift + click", "select more: two vertices are a distance, three an angle"),
     ("Ctrl + click", "walk around the face from this corner"),
     ("Esc", "select nothing"),
+    ("right click", "what can be done here: also in the program, on messages, on the time line"),
 ];
 
 /// Takes clicks and the place where the pointer rests.

@@ -57,12 +57,13 @@ impl Messages {
                     commands.extend(listing.then_some(list));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    if self.console
-                        && !listing
-                        && lines > 0
-                        && ui.small_button("Copy").on_hover_text("copy all lines").clicked()
-                    {
-                        ui.ctx().copy_text(session.console().lines(generation, 0..lines).join("\n"));
+                    let (count, what) =
+                        if self.console { (lines, "copy all lines") } else { (all, "copy all messages") };
+                    if !listing && count > 0 && ui.small_button("Copy").on_hover_text(what).clicked() {
+                        ui.ctx().copy_text(match self.console {
+                            true => session.console().lines(generation, 0..lines).join("\n"),
+                            false => all_texts(session),
+                        });
                     }
                 });
             })
@@ -103,6 +104,21 @@ fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
+/// An entry of a menu that is open; whether it was chosen.
+fn item(ui: &mut Ui, enabled: bool, label: &str, tooltip: &str) -> bool {
+    let clicked = ui.add_enabled(enabled, egui::Button::new(label)).on_hover_text(tooltip).clicked();
+    if clicked {
+        ui.close();
+    }
+    clicked
+}
+
+/// All messages as text.
+fn all_texts(session: &Session) -> String {
+    let texts: Vec<String> = session.problems().iter().map(Problem::to_text).collect();
+    texts.join("\n")
+}
+
 fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<Command>) {
     let diagnostic = &problem.diagnostic;
     let color = theme::severity(ui.visuals(), diagnostic.severity);
@@ -120,6 +136,22 @@ fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<C
     text.append(&diagnostic.message, space, format(ui.visuals().text_color()));
     let response = ui.add(Label::new(text).sense(Sense::click()).selectable(false));
     let response = response.on_hover_cursor(egui::CursorIcon::PointingHand);
+    response.context_menu(|ui| {
+        ui.set_min_width(180.0);
+        let own = problem.place.as_ref().filter(|place| place.own);
+        if item(ui, own.is_some(), "Go to place", "show it in the program")
+            && let Some(place) = own
+        {
+            commands.push(Command::Reveal(place.range.clone()));
+        }
+        ui.separator();
+        if item(ui, true, "Copy message", "with its place, evidence and hints") {
+            ui.ctx().copy_text(problem.to_text());
+        }
+        if item(ui, true, "Copy all messages", "of the program, the mesh and the run") {
+            ui.ctx().copy_text(all_texts(session));
+        }
+    });
     if response.clicked()
         && let Some(place) = problem.place.as_ref().filter(|p| p.own)
     {

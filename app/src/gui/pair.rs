@@ -101,8 +101,10 @@ fn title(ui: &mut Ui, session: &Session, has_keys: bool, commands: &mut Vec<Comm
                 commands.push(close);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let hover = text.clone();
                 let text = if has_keys { RichText::new(&text).strong() } else { RichText::new(&text).weak() };
                 let label = ui.add(egui::Label::new(text).truncate().selectable(false).sense(Sense::click()));
+                let label = label.on_hover_text(hover);
                 label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, label_name(session, has_keys)));
             });
         });

@@ -1,13 +1,14 @@
 //! The generations in a row: where we are, where we have been, what is kept.
 
 use eframe::egui::{
-    self, Align, Align2, ComboBox, CursorIcon, Key, Layout, Rect, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2,
-    vec2,
+    self, Align, Align2, Button, ComboBox, CursorIcon, Key, Layout, Rect, Role, Sense, Stroke, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::widgets::{Icon, grouped, icon_button, seconds, tooltip};
+use crate::annotate::Quantity;
 use crate::command::Command;
-use crate::session::Session;
+use crate::session::{Purpose, Session};
 
 /// Points between two generations, where there is room.
 const APART: f32 = 46.0;
@@ -51,6 +52,36 @@ fn by_keys(ui: &Ui, session: &Session, id: egui::Id, commands: &mut Vec<Command>
     }
 }
 
+/// What a right click on a generation offers.
+fn menu(ui: &mut Ui, session: &Session, generation: u64, commands: &mut Vec<Command>) {
+    ui.set_min_width(210.0);
+    let with = |command: Command| Command::With(generation, Box::new(command));
+    let entries = [
+        (format!("Go to generation {generation}"), "show it", Command::GoTo(generation)),
+        (
+            "Colour what its step changed".to_owned(),
+            "show it, and what was born and what moved since the generation before",
+            with(Command::ColorBy(Quantity::Change)),
+        ),
+        ("Save picture of it…".to_owned(), "show it, and write what is seen into a file", with(Command::SavePicture)),
+        (
+            "Save mesh of it…".to_owned(),
+            "show it, and write its mesh into a file",
+            with(Command::Choose(Purpose::ExportMesh)),
+        ),
+    ];
+    for (i, (label, tooltip, command)) in entries.into_iter().enumerate() {
+        if i == 2 {
+            ui.separator();
+        }
+        let enabled = session.frame().is_some() && (i != 1 || generation > 0);
+        if ui.add_enabled(enabled, Button::new(label)).on_hover_text(tooltip).clicked() {
+            commands.push(command);
+            ui.close();
+        }
+    }
+}
+
 fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let text = |speed: f64| format!("{speed} / s");
     let list = ComboBox::from_id_salt("speed").selected_text(text(session.speed)).width(64.0);
@@ -84,6 +115,13 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             commands.push(Command::Scrub(generation));
         }
     }
+    if let Some(pos) = response.interact_pointer_pos().filter(|_| response.secondary_clicked()) {
+        ui.ctx().data_mut(|data| data.insert_temp(response.id, under(pos.x)));
+    }
+    response.context_menu(|ui| {
+        let generation = ui.ctx().data(|data| data.get_temp(response.id)).unwrap_or(wanted);
+        menu(ui, session, generation, commands);
+    });
     if response.has_focus() {
         by_keys(ui, session, response.id, commands);
         ui.painter().rect_stroke(rect, 4.0, visuals.widgets.active.bg_stroke, egui::StrokeKind::Inside);

@@ -150,7 +150,7 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
     let s = &frame.statistics;
     let generation = frame.request.generation;
     let summary = format!(
-        "generation {generation}   {} vertices   {} edges   {} faces",
+        "generation\u{a0}{generation}   {}\u{a0}vertices   {}\u{a0}edges   {}\u{a0}faces",
         grouped(s.vertices),
         grouped(s.edges),
         grouped(s.faces)

@@ -7,6 +7,7 @@ use vv::diagnostic::Severity;
 use vv::engine::FailureKind;
 
 use super::{GRACE, Running, Session, Stale};
+use crate::command::Command;
 use crate::worker::{Event, Failed, Frame, Recipe, Report, Request, release};
 
 /// Playing pauses before a generation that would probably have more vertices.
@@ -21,6 +22,25 @@ impl Session {
     pub(super) fn pause_and_go_to(&mut self, generation: u64) {
         self.playing = None;
         self.go_to(generation);
+    }
+
+    /// Goes there; what is to be done with it waits until it is shown.
+    pub(super) fn go_to_and(&mut self, generation: u64, then: Command) {
+        self.pause_and_go_to(generation);
+        self.then = Some((generation, then));
+    }
+
+    /// Does what has waited for the generation that is shown now; forgets it when another one is wanted.
+    pub(super) fn carry_on(&mut self) {
+        let Some((generation, _)) = &self.then else { return };
+        let wanted = *generation == self.document.generation;
+        if wanted && self.is_busy() {
+            return;
+        }
+        let reached = wanted && self.stale.is_none() && *generation == self.shown_generation();
+        if let Some((_, then)) = self.then.take().filter(|_| reached) {
+            self.apply(then);
+        }
     }
 
     pub(super) fn stop(&mut self) {

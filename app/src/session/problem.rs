@@ -20,6 +20,31 @@ pub struct Problem {
     pub generation: Option<u64>,
 }
 
+impl Problem {
+    /// All of it, to be passed on: place and message in a line, then what explains it.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let at = |place: &Place| format!("{}:{}:{}", place.file, place.start.line, place.start.column);
+        let severity = match self.diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        let place = self.place.as_ref().map_or_else(String::new, |place| format!("{}: ", at(place)));
+        let mut text = format!("{place}{severity}: {}", self.diagnostic.message);
+        for (place, what) in &self.labels {
+            text += &format!("\n  {}: {what}", at(place));
+        }
+        for fact in &self.diagnostic.evidence {
+            text += &format!("\n  {fact}");
+        }
+        for hint in &self.diagnostic.hints {
+            text += &format!("\n  hint: {}", hint.message);
+        }
+        text
+    }
+}
+
 /// A stretch of a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {

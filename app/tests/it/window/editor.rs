@@ -256,3 +256,37 @@ fn a_changed_text_is_run_as_typed_on_save_or_by_hand() {
     click(&mut window, "Run the changed text");
     assert_eq!(size(&window), 4.0);
 }
+
+#[test]
+fn messages_are_copied_with_their_places() {
+    let mut window = octahedron();
+    write(&mut window, "void f(mesh& S) {\n  vertex v = nul;\n  int n = w;\n}\n");
+    let copied = |window: &mut Harness<'static, App>, what: &str| {
+        window.get_by_label(what).click();
+        window.step();
+        let commands = &window.output().platform_output.commands;
+        commands.iter().find_map(|command| match command {
+            egui::OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        })
+    };
+    let problems: Vec<_> = window.state().session().problems().iter().cloned().collect();
+    assert!(problems.len() >= 2, "{problems:?}");
+    let label = format!("line 3: {}", problems[1].diagnostic.message);
+    let entry = |window: &mut Harness<'static, App>| {
+        window.get_by_label_contains(&label).click_secondary();
+        window.run_steps(3);
+    };
+    entry(&mut window);
+    let one = copied(&mut window, "Copy message").unwrap();
+    assert!(one.starts_with(&format!("loop.vv:3:11: error: {}", problems[1].diagnostic.message)), "{one}");
+    window.run_steps(3);
+    entry(&mut window);
+    let all = copied(&mut window, "Copy all messages").unwrap();
+    assert!(all.contains(&one) && all.contains(":2:14: error: "), "{all}");
+    window.run_steps(3);
+    entry(&mut window);
+    window.get_by_label("Go to place").click();
+    window.run_steps(4);
+    assert!(window.get_by_label("Program text").is_focused());
+}

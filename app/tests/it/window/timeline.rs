@@ -57,3 +57,52 @@ fn playing_keeps_to_its_speed() {
     settle(&mut window);
     assert!(window.state().session().document.generation < 10, "what was played is one change");
 }
+
+#[test]
+fn a_right_click_on_a_generation_offers_what_to_do_with_it() {
+    let mut window = octahedron();
+    press(&mut window, Key::Num3);
+    let track = window.get_by_label("Time line").rect();
+    let right_click = |window: &mut Harness<'static, App>, generation: f32| {
+        let at = egui::pos2(track.left() + 14.0 + 46.0 * generation, track.center().y);
+        window.hover_at(at);
+        for pressed in [true, false] {
+            let (button, modifiers) = (egui::PointerButton::Secondary, Modifiers::NONE);
+            window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+            window.step();
+        }
+        window.run_steps(3);
+    };
+    right_click(&mut window, 1.0);
+    assert_eq!(faces(&window), 512, "nothing is done before something is chosen");
+    click(&mut window, "Colour what its step changed");
+    assert_eq!(faces(&window), 32);
+    assert_eq!(window.state().session().document.annotations.color_by.to_string(), "change");
+    right_click(&mut window, 2.0);
+    window.get_by_label("Go to generation 2");
+    click(&mut window, "Save picture of it…");
+    assert_eq!(faces(&window), 128);
+    assert_eq!(window.state().session().dialog, Some(app::session::Dialog::Picture));
+}
+
+#[test]
+fn what_waits_for_a_generation_is_forgotten_when_another_one_is_wanted() {
+    let mut window = octahedron();
+    let save = || Box::new(Command::SavePicture);
+    window.state_mut().apply(Command::With(3, save()));
+    window.state_mut().apply(Command::GoTo(1));
+    settle(&mut window);
+    window.state_mut().apply(Command::GoTo(3));
+    settle(&mut window);
+    assert_eq!(window.state().session().dialog, None);
+    // A generation that is not reached.
+    write(&mut window, "void f(mesh& S) { print(1 / 0); }");
+    window.state_mut().apply(Command::GoTo(0));
+    settle(&mut window);
+    window.state_mut().apply(Command::With(1, save()));
+    settle(&mut window);
+    assert_eq!(window.state().session().dialog, None);
+    window.state_mut().apply(Command::With(0, save()));
+    settle(&mut window);
+    assert_eq!(window.state().session().dialog, Some(app::session::Dialog::Picture));
+}
