@@ -291,6 +291,21 @@ mod tests {
         Cli::command().debug_assert();
     }
 
+    /// clap breaks the line at `{n}`, which is a name that outputs may have.
+    #[test]
+    fn no_help_loses_a_name_to_a_line_break() {
+        use clap::CommandFactory as _;
+        fn walk(command: &clap::Command) {
+            let texts = [command.get_about(), command.get_long_about(), command.get_after_help()];
+            let of_arguments = command.get_arguments().flat_map(|a| [a.get_help(), a.get_long_help()]);
+            for text in texts.into_iter().chain(of_arguments).flatten() {
+                assert!(!text.to_string().contains("{n}"), "{}: {text}", command.get_name());
+            }
+            command.get_subcommands().for_each(walk);
+        }
+        walk(&Cli::command());
+    }
+
     #[test]
     fn a_name_is_guessed_only_if_it_is_alike() {
         let names = ["run", "check", "mesh"];

@@ -50,7 +50,7 @@ Examples:
   vv run loop.vv -i bunny.obj --summary json | jq .euler_characteristic
   vv run loop.vv -i bunny.obj -o new.png --reference old.png      a picture test
   vv run loop.vv -i bunny.obj -o a.png --color-by gauss --style smooth,no-edges
-  vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n}.obj'       every generation of both
+  vv run loop.vv -i a.obj -i b.obj -n 3 -o '{name}_{n:2}.obj'     every generation of both
   vv run terrain.vv -D roughness=0.3:0.8:5 -o 'terrain_{roughness}.obj' -o all.png
   vv run loop.vv -i bunny.obj --generations 0-3 -o steps.png --size 1600x450   side by side
   vv run loop.vv -i cube.obj --generations 0-3 -o fig.pdf --style no-faces     the same in lines, for a paper
@@ -76,8 +76,8 @@ pub struct Arguments {
     /// The rule to apply. Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
     rule: Option<String>,
-    /// The generations that `{n}` in the names of outputs stands for, such as 0,2,4 or 0-3; pictures and figures
-    /// without `{n}` show them side by side. Default: all, and the last one.
+    /// The generations that `{n:2}` in the names of outputs stands for (in two digits), such as 0,2,4 or 0-3; pictures
+    /// and figures without it show them side by side. Default: all, and the last one.
     #[arg(long, value_name = "LIST", value_parser = plan::generations)]
     generations: Option<plan::Generations>,
     /// Go around the mesh in N pictures: `{frame}` in their names is the number of each, from 0; a .gif holds them all.
