@@ -19,6 +19,7 @@ mod fill;
 mod hidden;
 mod letters;
 mod light;
+mod mask;
 mod notes;
 mod order;
 mod page;
@@ -46,6 +47,7 @@ use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
 pub use letters::Glyph;
+pub use mask::mask;
 pub use notes::Notes;
 pub use page::{At, Drawing, Layer, Path, Sketch, Tile, Words, sheet};
 pub use raster::image;

@@ -1,5 +1,7 @@
 //! `vv mask`
 
+mod drawn;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,12 +23,14 @@ use super::info::json;
 use super::report::{Reporter, write_stdout};
 use super::run::{parameters, unknown_rule};
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input};
+use drawn::{DrawingArguments, Drawn};
 
 const EXAMPLES: &str = "\
 Examples:
   vv mask loop.vv                              inside and at the boundary, valence by valence
   vv mask catmull-clark.vv --around quads --valence 5
   vv mask butterfly.vv -i torus.obj --vertex 40
+  vv mask loop.vv --valence 5 --valence 6 -o masks.pdf --page 85mm      as figures for a paper
 
 ";
 
@@ -61,6 +65,8 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
+    drawing: DrawingArguments,
+    #[command(flatten)]
     importing: Importing,
     #[command(flatten)]
     reporting: Reporting,
@@ -77,6 +83,7 @@ enum Faces {
 /// Prints the masks, and as warnings what keeps them from being masks.
 pub fn mask(arguments: &Arguments) -> Result<(), Exit> {
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
+    let targets = arguments.drawing.targets(&reporter)?;
     let (program, _) = input::program(&arguments.program, &reporter)?;
     let name = files::shown(&arguments.program);
     let rules: Vec<_> = program.rules.iter().filter_map(|&r| program.function(r)).map(|f| f.name.as_str()).collect();
@@ -104,9 +111,20 @@ pub fn mask(arguments: &Arguments) -> Result<(), Exit> {
         reporter.report(&[Diagnostic::new(Severity::Warning, None, warning.as_str())], &Sources::default());
     }
     let table = Table { program: name, rule: rule_name, ..table };
-    let text = if arguments.json { json(&table) } else { table.text() };
-    write_stdout(text.as_bytes(), &reporter)
+    if arguments.json {
+        write_stdout(json(&table).as_bytes(), &reporter)?;
+    } else if targets.is_empty() {
+        write_stdout(table.text().as_bytes(), &reporter)?;
+    }
+    if targets.is_empty() {
+        return Ok(());
+    }
+    let around = if table.around == Some(TRIANGLES) { Around::Triangles } else { Around::Quads };
+    arguments.drawing.write(table.drawn, around, &targets, &reporter)
 }
+
+/// What is said of what is around a vertex.
+const TRIANGLES: &str = "triangles";
 
 /// All that was found.
 #[derive(Default, Serialize)]
@@ -117,6 +135,9 @@ struct Table {
     around: Option<&'static str>,
     rows: Vec<Row>,
     warnings: Vec<String>,
+    /// The masks as figures, if these are asked for.
+    #[serde(skip)]
+    drawn: Vec<Drawn>,
 }
 
 /// Masks that belong together.
@@ -174,6 +195,7 @@ impl Bench<'_> {
         let of = |mask: &[(Vertex, f64)]| weights(mask, |v| v.to_string(), &[]);
         let mut rows: Vec<Mask> = Vec::new();
         let mut seen: Vec<Vec<f64>> = Vec::new();
+        let mut drawn = Vec::new();
         for (v, mask) in masks.result.vertices().zip(&masks.weights) {
             if arguments.vertex.is_some_and(|wanted| wanted != v.index() + 1) || !masks.result.set.contains(v) {
                 continue;
@@ -187,6 +209,9 @@ impl Bench<'_> {
                 Some(i) => rows[i].count += 1,
                 None => {
                     seen.push(sorted);
+                    if arguments.drawing.is_asked_for() {
+                        drawn.push(arguments.drawing.of_mesh(&mesh, mask));
+                    }
                     rows.push(Mask { place: v.to_string(), count: 1, weights: of(mask) });
                 }
             }
@@ -195,9 +220,12 @@ impl Bench<'_> {
             let message = format!("the result has no vertex v{number}");
             return fail(self.reporter, Exit::Usage, error(message));
         }
+        for (drawn, row) in drawn.iter_mut().zip(&rows) {
+            DrawingArguments::name(drawn, &row.place, row.count);
+        }
         let warnings = masks.faults.iter().take(3).map(ToString::to_string).collect();
         let row = Row { title: files::shown(path), masks: rows, failure: None };
-        Ok(Table { rows: vec![row], warnings, ..Table::default() })
+        Ok(Table { rows: vec![row], warnings, drawn, ..Table::default() })
     }
 
     fn of_stars(&self, arguments: &Arguments) -> Result<Table, Exit> {
@@ -212,7 +240,7 @@ impl Bench<'_> {
             arguments.valence.iter().map(|&n| usize::from(n)).collect()
         };
         let mut table =
-            Table { around: Some(if around == Around::Triangles { "triangles" } else { "quads" }), ..Table::default() };
+            Table { around: Some(if around == Around::Triangles { TRIANGLES } else { "quads" }), ..Table::default() };
         let inside = valences.iter().map(|&n| (n, false));
         // A regular boundary vertex has 3 sectors of triangles or 2 quads; one on either side shows the rule.
         let boundary = (1..=5).filter(|_| arguments.valence.is_empty());
@@ -226,6 +254,10 @@ impl Bench<'_> {
             let row = match judge(&self.machine, self.rule, &star, &self.settings) {
                 Ok(found) => {
                     table.warnings.extend(found.faults.iter().map(|fault| format!("{title}: {fault}")));
+                    if arguments.drawing.is_asked_for() {
+                        let draw = |class| arguments.drawing.of_star(&star, around, class);
+                        table.drawn.extend(found.classes.iter().map(draw));
+                    }
                     let masks = found.classes.iter().map(|class| named(&star, class)).collect();
                     Row { title, masks, failure: None }
                 }

@@ -67,6 +67,12 @@ pub(super) struct Found {
 /// Labels beyond so many could not be told apart on any page.
 const MOST: usize = 20_000;
 
+/// A label keeps clear of lines as long as it is no farther off than this, over the height of letters.
+const FAR: f64 = 1.3;
+
+/// Not kept clear of lines.
+const NARROW: (f64, f64) = (0.0, 0.0);
+
 /// Neighbours that are numbered.
 const ORDERED: usize = 48;
 
@@ -88,18 +94,19 @@ pub(super) fn find(
     }
     let Some(texts) = Texts::of(subject.mesh, subject.faces, subject.tint, &subject.notes.labels) else { return found };
     let clearance = if style.vertices { f64::from(style.vertex_size) / 4.0 } else { 0.4 } + 1.8;
-    let note = |at: DVec2, toward: DVec2, element: usize| Note {
+    let note = |at: DVec2, (toward, gap): (DVec2, f64), element: usize| Note {
         name: "labels",
         at,
         toward,
         clearance,
+        gap: (gap, FAR * size),
         text: texts.text(element),
         size,
         color: inks.text,
     };
     if texts.at_faces() {
         let places = writer.faces();
-        found.notes.extend(places.into_iter().map(|(face, at)| note(at, DVec2::ZERO, face)));
+        found.notes.extend(places.into_iter().map(|(face, at)| note(at, (DVec2::ZERO, 0.0), face)));
         return found;
     }
     let owner = |corner: u32| subject.scene.mesh.vertex(corner);
@@ -118,18 +125,20 @@ pub(super) fn find(
     let names = subject.notes.labels == Label::Vertices;
     places.retain(|(v, ..)| !(names && taken.contains(v)));
     places.truncate(MOST);
-    found.notes.extend(places.into_iter().map(|(v, corner, at)| {
-        let toward = widest_gap(lines.get(&corner).map_or(&[], |lines| lines));
-        note(at.xy(), toward, v.index())
-    }));
+    found.notes.extend(
+        places
+            .into_iter()
+            .map(|(v, corner, at)| note(at.xy(), widest_gap(lines.get(&corner).map_or(&[], |lines| lines)), v.index())),
+    );
     found
 }
 
-/// Where most room is between lines that leave a point in these directions, rather upwards and to the right.
-pub(super) fn widest_gap(lines: &[DVec2]) -> DVec2 {
+/// Where most room is between lines that leave a point in these directions, rather upwards and to the right; and half the
+/// angle of it.
+pub(super) fn widest_gap(lines: &[DVec2]) -> (DVec2, f64) {
     const LIKED: f64 = 0.9;
     const WEIGHT: f64 = 0.25;
-    use std::f64::consts::TAU;
+    use std::f64::consts::{PI, TAU};
     let mut angles: Vec<f64> = lines.iter().map(|d| d.y.atan2(d.x)).collect();
     angles.sort_by(f64::total_cmp);
     let gaps = angles.iter().enumerate().map(|(i, &a)| {
@@ -137,8 +146,8 @@ pub(super) fn widest_gap(lines: &[DVec2]) -> DVec2 {
         ((a + b) / 2.0, b - a)
     });
     let worth = |(middle, width): &(f64, f64)| width + WEIGHT * (middle - LIKED).cos();
-    let best = gaps.max_by(|a, b| worth(a).total_cmp(&worth(b)));
-    DVec2::from_angle(best.map_or(LIKED, |(middle, _)| middle))
+    let (middle, width) = gaps.max_by(|a, b| worth(a).total_cmp(&worth(b))).unwrap_or((LIKED, TAU));
+    (DVec2::from_angle(middle), (width / 2.0).min(PI))
 }
 
 struct Writer<'a> {
@@ -208,16 +217,34 @@ impl Writer<'_> {
             };
             let toward = (at - middle.1.xy()).normalize_or(DVec2::Y);
             let (size, color) = (self.size, self.inks.ring);
-            found.notes.push(Note { name: "order", at, toward, clearance: 0.4 * self.size, text, size, color });
+            found.notes.push(Note {
+                name: "order",
+                at,
+                toward,
+                clearance: 0.4 * self.size,
+                gap: NARROW,
+                text,
+                size,
+                color,
+            });
             named.push(u);
             places.push(at);
         }
         if self.subject.notes.labels == Label::Vertices {
             let away: Vec<DVec2> = ring.vertices().map(|u| project(mesh.position(u)) - middle.1.xy()).collect();
-            let (at, toward) = (middle.1.xy(), widest_gap(&away));
+            let (at, (toward, _)) = (middle.1.xy(), widest_gap(&away));
             let (size, color) = (self.size, self.inks.ring);
             let text = v.to_string();
-            found.notes.push(Note { name: "order", at, toward, clearance: 0.4 * self.size, text, size, color });
+            found.notes.push(Note {
+                name: "order",
+                at,
+                toward,
+                clearance: 0.4 * self.size,
+                gap: NARROW,
+                text,
+                size,
+                color,
+            });
         }
         let line = Line { width: 0.11 * self.size, color: self.inks.ring, dash: Dash::Solid };
         found.strokes.push(Strokes { name: "rings", line, pieces, heads });
@@ -286,7 +313,7 @@ mod tests {
     #[track_caller]
     fn check(lines: &[(f64, f64)], expected: (f64, f64)) {
         let lines: Vec<DVec2> = lines.iter().map(|&p| p.into()).collect();
-        let toward = widest_gap(&lines);
+        let (toward, _) = widest_gap(&lines);
         assert!(toward.distance(DVec2::from(expected).normalize()) < 0.02, "{toward}");
     }
 

@@ -91,6 +91,8 @@ pub struct Drawing {
     pub layers: Vec<Layer>,
     /// Whether all faces are in their right order: not if that would take too many pieces.
     pub is_exact: bool,
+    /// How many texts were left out because others take their room.
+    pub crowded_out: usize,
 }
 
 impl Drawing {
@@ -153,6 +155,8 @@ pub(super) struct Note {
     pub toward: DVec2,
     /// How far off, in points.
     pub clearance: f64,
+    /// Half the angle around that side which is free of lines, and how much farther off it may stand to lie in there.
+    pub gap: (f64, f64),
     pub text: String,
     /// Height of letters in points.
     pub size: f64,
@@ -217,6 +221,7 @@ pub fn sheet(tiles: Vec<Tile>, columns: Option<usize>, settings: &Settings) -> O
     };
     let scale = scale_in(columns, &shown(scale_in(columns, &[])).concat());
     let kept = shown(scale);
+    let crowded_out = blocks.iter().flatten().count() - kept.iter().flatten().count();
     let [left_below, right_above] = frame.extent(scale, &kept.concat());
     let cell = right_above - left_below;
 
@@ -240,7 +245,7 @@ pub fn sheet(tiles: Vec<Tile>, columns: Option<usize>, settings: &Settings) -> O
     let rows = drawing.tiles.div_ceil(columns).max(1);
     let across = columns.min(drawing.tiles.max(1)) as f64;
     let size = DVec2::new(across * step.x - GAP, rows as f64 * step.y - GAP);
-    Some(drawing.finish(size))
+    Some(Drawing { crowded_out, ..drawing.finish(size) })
 }
 
 /// Notes and axes for a picture of this size in points.
@@ -316,6 +321,23 @@ impl Frame {
 }
 
 impl Sketch {
+    /// The same around the origin.
+    pub(super) fn centered(mut self) -> Self {
+        let nowhere = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let settings = Settings::default();
+        let (low, high) = self.points(&settings).fold(nowhere, |(low, high), p| (low.min(p), high.max(p)));
+        let middle = (low + high) / 2.0;
+        if middle.is_finite() {
+            let faces = self.faces.iter_mut().flat_map(|(corners, _)| corners);
+            let strokes = self.strokes.iter_mut().flat_map(|s| s.pieces.iter_mut().chain(&mut s.heads)).flatten();
+            let dots = self.dots.iter_mut().flat_map(|dots| &mut dots.places);
+            let notes = self.notes.iter_mut().map(|note| &mut note.at);
+            faces.chain(strokes).chain(dots).chain(notes).for_each(|p| *p -= middle);
+            self.lines.iter_mut().flatten().flatten().for_each(|p| *p -= middle.extend(0.0));
+        }
+        self
+    }
+
     /// The room that the widest line takes beyond its places, in points.
     fn margin(&self, settings: &Settings) -> f64 {
         let lines = Class::ALL.into_iter().filter_map(|class| self.line(class, settings)).map(|line| line.width);
@@ -458,7 +480,7 @@ impl<'a> Builder<'a> {
         layers.extend(lines);
         layers.extend(self.dots);
         layers.extend(self.texts);
-        Drawing { size: rounded(size), layers, is_exact: self.is_exact }
+        Drawing { size: rounded(size), layers, is_exact: self.is_exact, crowded_out: 0 }
     }
 }
 

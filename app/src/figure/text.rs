@@ -27,6 +27,8 @@ impl Block {
         let half = DVec2::new(letters::set(&note.text, note.size).width, CAPITAL * note.size) / 2.0;
         // So far off that it just clears a square around the place.
         let reach = ((half + note.clearance) / note.toward.abs()).min_element();
+        let free = apart_from_lines(half + note.size * 0.1, note.toward, note.gap.0);
+        let reach = if free <= reach + note.gap.1 { reach.max(free) } else { reach };
         let offset = if note.toward == DVec2::ZERO { DVec2::ZERO } else { reach * note.toward };
         let Note { name, at, size, color, .. } = *note;
         Self { name, at, offset, half, text: note.text.clone(), size, color }
@@ -37,6 +39,16 @@ impl Block {
         let center = self.at * scale + self.offset;
         [center - self.half, center + self.half]
     }
+}
+
+/// How far off a block lies in an angle of twice `gap` around a direction.
+fn apart_from_lines(half: DVec2, toward: DVec2, gap: f64) -> f64 {
+    if gap >= std::f64::consts::FRAC_PI_2 || gap <= 0.0 {
+        return 0.0;
+    }
+    let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].map(|signs| half * DVec2::from(signs));
+    let far = |corner: DVec2| toward.perp_dot(corner).abs() / gap.tan() - toward.dot(corner);
+    corners.into_iter().map(far).fold(0.0, f64::max)
 }
 
 /// Of blocks the first that do not overlap; `place` is in points.
@@ -80,16 +92,9 @@ mod tests {
     use super::*;
 
     fn block(at: (f64, f64), text: &str) -> Block {
-        let (toward, clearance) = (DVec2::X, 1.0);
-        Block::new(&Note {
-            name: "labels",
-            at: at.into(),
-            toward,
-            clearance,
-            text: text.to_owned(),
-            size: 7.0,
-            color: [0; 3],
-        })
+        let (toward, clearance, gap) = (DVec2::X, 1.0, (0.0, 0.0));
+        let (at, text) = (at.into(), text.to_owned());
+        Block::new(&Note { name: "labels", at, toward, clearance, gap, text, size: 7.0, color: [0; 3] })
     }
 
     #[test]
@@ -104,17 +109,17 @@ mod tests {
         let [low, high] = block((2.0, 3.0), "v1").bounds(10.0);
         assert!((low.x - 21.0).abs() < 1e-9 && ((low.y + high.y) / 2.0 - 30.0).abs() < 1e-9, "{low} {high}");
         let toward = DVec2::new(0.6, -0.8);
-        let note = Note {
-            name: "labels",
-            at: DVec2::ZERO,
-            toward,
-            clearance: 2.0,
-            text: "12345".into(),
-            size: 7.0,
-            color: [0; 3],
-        };
+        let gap = (0.0, 0.0);
+        let (text, size, color) = ("12345".to_owned(), 7.0, [0; 3]);
+        let note = Note { name: "labels", at: DVec2::ZERO, toward, clearance: 2.0, gap, text, size, color };
         let [low, high] = Block::new(&note).bounds(1.0);
         assert!((high.y + 2.0).abs() < 1e-9 && low.x < 0.0 && high.x > 0.0, "{low} {high}");
+        // Farther off where that keeps it clear of lines: here, of those at 45 degrees from its direction.
+        let note = Note { gap: (std::f64::consts::FRAC_PI_4, 30.0), ..note };
+        let [low, high] = Block::new(&note).bounds(1.0);
+        let angles =
+            [low, DVec2::new(low.x, high.y), DVec2::new(high.x, low.y), high].map(|p| p.angle_to(toward).abs());
+        assert!(angles.iter().all(|angle| *angle < std::f64::consts::FRAC_PI_4), "{low} {high} {angles:?}");
     }
 
     #[test]

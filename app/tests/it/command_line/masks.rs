@@ -39,3 +39,53 @@ fn what_is_no_mask_is_warned_of() {
         check_file("null.vv", "void step(mesh& S) { vertex n = null; n$pos *= 2; }\n", "mask null.vv", 0, "").stdout;
     assert!(table.contains("none: null has no position"), "{table}");
 }
+
+/// What is written on a figure, in its order.
+fn written(svg: &str) -> Vec<String> {
+    let document = roxmltree::Document::parse(svg).unwrap();
+    document.descendants().filter_map(|node| node.attribute("aria-label")).map(str::to_owned).collect()
+}
+
+#[test]
+fn masks_are_drawn_with_their_weights_and_each_kind_once() {
+    let folder = Folder::with(&[("thirds.vv", THIRDS)]);
+    let said = folder.check("mask thirds.vv --valence 4 -o a.svg -o a.eps -o a.pdf -o a.png --page 50mm", 0, "").stdout;
+    assert_eq!(said, "", "no table");
+    let text = folder.read("a.svg");
+    let mut labels = written(&text);
+    labels.sort();
+    assert_eq!(labels, ["1/12", "1/12", "1/12", "1/12", "2/3", "vertex, valence 4"]);
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let dots = |id: &str| {
+        let group = document.descendants().find(|node| node.attribute("id") == Some(id)).unwrap();
+        group.children().filter(roxmltree::Node::is_element).count()
+    };
+    assert_eq!((dots("old-vertices"), dots("new-vertex")), (5, 1));
+    assert_eq!(image::image_dimensions(folder.path("a.png")).unwrap().0, 591, "300 pixels per inch");
+    // A rule that does the same to all vertices has one picture for all valences, and one at the boundary.
+    let text = "void step(mesh& S) { synchronize S; forall v in S v$pos = `v$pos * 1; }\n";
+    check_file("stay.vv", text, "mask stay.vv -o a.svg --json", 0, "");
+    let folder = Folder::with(&[("stay.vv", text)]);
+    folder.check("mask stay.vv -o a.svg", 0, "");
+    assert_eq!(written(&folder.read("a.svg")), ["vertex", "boundary vertex", "1", "1"]);
+}
+
+#[test]
+fn masks_of_a_mesh_are_drawn_on_it() {
+    let folder = Folder::with(&[("thirds.vv", THIRDS)]);
+    folder.check("mask thirds.vv -i octahedron.obj --vertex 3 -o a.svg", 0, "");
+    let mut labels = written(&folder.read("a.svg"));
+    labels.sort();
+    assert_eq!(labels, ["1/12", "1/12", "1/12", "1/12", "2/3", "v3"]);
+}
+
+#[test]
+fn a_figure_of_masks_that_cannot_be_made_leaves_nothing() {
+    let folder = Folder::with(&[("thirds.vv", THIRDS)]);
+    folder.check("mask thirds.vv -o a.obj", 2, "`-o a.obj` is no figure of masks");
+    folder.check("mask thirds.vv -o a.svg -o a.svg", 2, "is given twice");
+    folder.check("mask thirds.vv -o no/a.svg", 3, "there is no directory `no`");
+    folder.check("mask thirds.vv --page 80mm", 2, "--output");
+    folder.check("mask move.vv -i octahedron.obj --vertex 9 -o a.svg", 2, "the result has no vertex v9");
+    assert!(!folder.path("a.svg").exists());
+}
