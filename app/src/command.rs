@@ -358,7 +358,7 @@ impl Command {
             Self::Rewind => ("Rewind", "go back to generation 0", const { &[key(Key::Home)] }),
             Self::Play => ("Play", "step again and again, until stopped", const { &[key(Key::Space)] }),
             Self::Stop => ("Stop", "end what is being computed", const { &[key(Key::Escape)] }),
-            Self::ResetParams => ("Reset all", "all parameters as the program says", &[]),
+            Self::ResetParams => ("Reset parameters", "all parameters as the program says", &[]),
             Self::Faces => ("Faces", "fill the faces; off shows the wireframe", const { &[key(Key::W)] }),
             Self::Edges => ("Edges", "draw the edges", const { &[key(Key::E)] }),
             Self::Vertices => ("Vertices", "draw the vertices", const { &[key(Key::V)] }),

@@ -46,6 +46,7 @@ mod selection;
 mod theme;
 mod timeline;
 mod toolbar;
+mod type_path;
 mod viewport;
 mod views;
 mod widgets;
@@ -79,7 +80,7 @@ pub fn run(mesh: Option<PathBuf>, program: Option<PathBuf>, viewpoint: Option<Vi
         viewport: egui::ViewportBuilder::default()
             .with_title("vv")
             .with_app_id("vv")
-            .with_inner_size([1280.0, 800.0])
+            .with_inner_size([1280.0, 720.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,

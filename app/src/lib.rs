@@ -23,6 +23,7 @@ pub mod sheet;
 pub mod store;
 pub mod style_file;
 pub mod trace;
+mod typed_path;
 pub mod viewpoint;
 pub mod watch;
 pub mod worker;

@@ -61,7 +61,7 @@ fn sections(ui: &Ui, preset: Preset, query: &str) -> Vec<Section> {
             let commands = menu.groups.iter().copied().flatten();
             let rows = commands.filter_map(|command| {
                 let description = command.describe();
-                let keys: Vec<String> = description.shortcuts.iter().map(|s| ui.ctx().format_shortcut(s)).collect();
+                let keys: Vec<String> = description.shortcuts.iter().map(|s| super::widgets::keys(ui, s)).collect();
                 (!keys.is_empty()).then(|| (keys.join("  or  "), description.label.trim_end_matches('…').to_owned()))
             });
             Section { title: menu.title, rows: rows.collect() }

@@ -1,13 +1,11 @@
 //! Questions that must be answered before anything else.
 
-use std::path::PathBuf;
-
-use eframe::egui::{Context, Frame, Id, Key, Margin, Modal, RichText, TextEdit, Ui};
+use eframe::egui::{Context, Frame, Id, Margin, Modal, Ui};
 
 use super::gallery::Gallery;
-use super::{cheat_sheet, palette, preferences, saving, selection};
+use super::{cheat_sheet, palette, preferences, saving, selection, type_path, widgets};
 use crate::command::{Answer, Command};
-use crate::session::{Dialog, Purpose, Session};
+use crate::session::{Dialog, Session};
 
 /// Shows the one that is open.
 pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, commands: &mut Vec<Command>) {
@@ -30,7 +28,7 @@ pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, command
         match dialog {
             Dialog::Unsaved { .. } => unsaved(ui, &name, project.is_some(), commands),
             Dialog::TypePath { purpose, path, .. } => {
-                if let Some(path) = type_path(ui, *purpose, path, commands) {
+                if let Some(path) = type_path::show(ui, *purpose, path, commands) {
                     chosen = Some((*purpose, path));
                 }
             }
@@ -56,7 +54,7 @@ fn unsaved(ui: &mut Ui, name: &str, is_project: bool, commands: &mut Vec<Command
     });
     ui.add_space(12.0);
     ui.horizontal(|ui| {
-        if ui.button(RichText::new("Save").strong()).clicked() {
+        if ui.add(widgets::first_choice(ui, "Save")).clicked() {
             commands.push(Command::AnswerUnsaved(Answer::Save));
         }
         if ui.button("Don't save").clicked() {
@@ -74,7 +72,7 @@ fn recover(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
     ui.label(format!("vv ended unexpectedly while {name} had changes that were not saved. They were kept."));
     ui.add_space(12.0);
     ui.horizontal(|ui| {
-        if ui.button(RichText::new("Bring back").strong()).clicked() {
+        if ui.add(widgets::first_choice(ui, "Bring back")).clicked() {
             commands.push(Command::AnswerRecovery(true));
         }
         if ui.button("Throw away").clicked() {
@@ -84,47 +82,4 @@ fn recover(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
             commands.push(Command::CloseDialog);
         }
     });
-}
-
-fn type_path(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec<Command>) -> Option<PathBuf> {
-    let (title, verb) = match purpose {
-        Purpose::OpenProgram => ("Open program", "Open"),
-        Purpose::OpenMesh => ("Open mesh", "Open"),
-        Purpose::SaveProgram => ("Save program as", "Save"),
-        Purpose::ExportMesh => ("Save mesh as", "Save"),
-        Purpose::OpenProject => ("Open project", "Open"),
-        Purpose::SaveProject => ("Save project as", "Save"),
-        Purpose::SavePicture => ("Save picture as", "Save"),
-        Purpose::OpenStyle => ("Load style", "Load"),
-        Purpose::SaveStyle => ("Save style as", "Save"),
-    };
-    ui.heading(title);
-    ui.add_space(4.0);
-    let label = ui.label("This system offers no file dialog; type the path of the file.");
-    let response = ui.add(TextEdit::singleline(path).hint_text("path").desired_width(f32::INFINITY));
-    let response = response.labelled_by(label.id);
-    if !response.has_focus() && !response.lost_focus() {
-        response.request_focus();
-    }
-    let typed = PathBuf::from(path.trim());
-    let saves = purpose.saves();
-    let named = !path.trim().is_empty();
-    if named && saves && typed.exists() {
-        ui.label(RichText::new("This file exists and will be replaced.").color(ui.visuals().warn_fg_color));
-    } else if named && !saves && !typed.is_file() {
-        ui.label(RichText::new("There is no such file.").weak());
-    } else {
-        ui.label(" ");
-    }
-    ui.add_space(8.0);
-    let possible = named && (saves || typed.is_file());
-    let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-    let mut go = false;
-    ui.horizontal(|ui| {
-        go = ui.add_enabled(possible, eframe::egui::Button::new(RichText::new(verb).strong())).clicked();
-        if ui.button("Cancel").clicked() {
-            commands.push(Command::CloseDialog);
-        }
-    });
-    (possible && (go || entered)).then_some(typed)
 }

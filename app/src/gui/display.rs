@@ -73,15 +73,17 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let shows_range = session.colors().and_then(Result::ok).is_some_and(|tint| tint.has_range());
     if let Some(legend) = legend.filter(|_| shows_range) {
         let [low, high] = range.unwrap_or(legend.range);
+        // Enough digits for the range, no more: they would take the room of the numbers.
+        let digits = (3.0 - (high - low).abs().log10().floor()).clamp(0.0, 12.0) as usize;
         let speed = legend.extremes.map_or(0.01, |[a, b]| ((b - a) / 300.0).max(1e-9));
         let set = |range| Command::SetAnnotations(Annotations { range, ..session.document.annotations.clone() });
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             let (mut from, mut to) = (low, high);
-            let first = ui.add(DragValue::new(&mut from).speed(speed).max_decimals(4));
+            let first = ui.add(DragValue::new(&mut from).speed(speed).max_decimals(digits));
             let first = first.on_hover_text("the number at the lower end of the colours").accessible_name("From");
             ui.label("to");
-            let last = ui.add(DragValue::new(&mut to).speed(speed).max_decimals(4));
+            let last = ui.add(DragValue::new(&mut to).speed(speed).max_decimals(digits));
             let last = last.on_hover_text("the number at the upper end of the colours").accessible_name("To");
             if (first.changed() || last.changed()) && from < to {
                 commands.push(set(Some([from, to])));

@@ -28,6 +28,9 @@ use page::{Page, byte_of, char_of};
 /// Seconds that the pointer rests on a word before it is explained.
 const REST: f32 = 0.45;
 
+/// Points between the text and what is around it.
+const MARGIN: i8 = 6;
+
 /// What a right click offers.
 const MENU: &[&[Command]] = &[
     &[Command::Text(TextAction::Declaration), Command::Text(TextAction::Complete)],
@@ -259,6 +262,11 @@ impl Editor {
         let clip = area.intersect(ui.clip_rect());
         let text = self.buffer.clone();
         let page = Page { galley: &output.galley, origin: output.galley_pos, text: &text, clip };
+        // What egui takes for a word is one of prose.
+        let clicked = response.interact_pointer_pos().filter(|_| response.double_clicked());
+        if let Some(word) = clicked.and_then(|pos| page.word_at(pos)) {
+            self.select(ui.ctx(), word);
+        }
         let cursor_line = cursor.map(|cursor| page.row_of(cursor));
         let mut shapes = vec![page.found(ui, self.find.matches(&text), &self.selected)];
         if let Some(row) = cursor_line.and_then(|row| page.row_rect(row)) {
@@ -320,8 +328,7 @@ impl Editor {
                     .id(id())
                     .code_editor()
                     .event_filter(keys)
-                    .frame(egui::Frame::NONE)
-                    .margin(Margin { left: 6, right: 40, top: 6, bottom: 40 })
+                    .frame(egui::Frame::NONE.inner_margin(Margin { left: 2, right: 40, top: MARGIN, bottom: 40 }))
                     .desired_width(f32::INFINITY)
                     .min_size(area.size())
                     .layouter(&mut layouter)
@@ -526,9 +533,13 @@ fn place_cursor(ui: &Ui, output: &TextEditOutput, text: &str, reveal: &Reveal) {
         ui.memory_mut(|m| m.request_focus(id()));
     }
     if reveal.range == (0..0) {
-        ui.scroll_to_rect(output.response.response.rect, Some(Align::Min));
+        ui.scroll_to_rect(output.response.response.rect.expand(MARGIN.into()), Some(Align::Min));
         return;
     }
     let rect = output.galley.pos_from_cursor(range.secondary).translate(output.galley_pos.to_vec2());
-    ui.scroll_to_rect(rect.expand2(vec2(60.0, 20.0)), Some(Align::Center));
+    // No farther to the right than is needed, for the beginnings of lines tell where one is; what is out of sight comes
+    // to the middle.
+    let seen = ui.clip_rect().y_range().contains(rect.top()) && ui.clip_rect().y_range().contains(rect.bottom());
+    let around = if seen { 20.0 } else { ui.clip_rect().height() / 2.0 - rect.height() };
+    ui.scroll_to_rect(rect.expand2(vec2(60.0, around.max(20.0))), None);
 }

@@ -89,7 +89,7 @@ fn explain(ui: &mut Ui, tint: &Tint, under: Option<&Under>) {
         Some(Under { name, text: None, .. }) => format!("{name}: none"),
         None => match (&tint.field.note, tint.legend.without) {
             (Some(note), _) => note.clone(),
-            (None, 0) => String::new(),
+            (None, 0) => "point at the mesh for a value".to_owned(),
             (None, n) => format!("{} without", grouped(n)),
         },
     };

@@ -16,11 +16,11 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         for menu in MENUS.iter().filter(|menu| outer(menu.title).is_none()) {
             ui.menu_button(menu.title, |ui| {
                 ui.set_min_width(210.0);
-                if menu.title == "File" && !session.recent().is_empty() {
-                    ui.menu_button("Open recent", |ui| recent(ui, session, commands));
-                    ui.separator();
-                }
                 entries(ui, session, commands, menu);
+                if menu.title == "File" && !session.recent().is_empty() {
+                    ui.separator();
+                    ui.menu_button("Open recent", |ui| recent(ui, session, commands));
+                }
                 if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
                     ui.separator();
                 }

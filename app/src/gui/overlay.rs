@@ -13,7 +13,7 @@ use crate::camera::{Camera, picture_point};
 use crate::scene::{Plane, Scene, Style};
 
 /// How faint what is hidden is.
-const HIDDEN: f32 = 0.3;
+const HIDDEN: f32 = 0.4;
 
 /// Colours that tell what is what.
 #[derive(Debug, Clone, Copy)]
@@ -312,8 +312,8 @@ impl<'a> Overlay<'a> {
         let galley = self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), color);
         let padding = vec2(4.0, 1.0);
         let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size() + 2.0 * padding);
-        let (opacity, color) =
-            (if hidden { 0.55 } else { 1.0 }, if hidden { color.gamma_multiply(0.6) } else { color });
+        // What is there to be read must be readable wherever it is.
+        let (opacity, color) = if hidden { (0.85, color.gamma_multiply(0.85)) } else { (1.0, color) };
         self.painter.rect(
             rect,
             CornerRadius::same(4),

@@ -192,7 +192,7 @@ fn row(ui: &mut Ui, session: &Session, entry: &Entry, matched: &Match, selected:
     let width = galley.size().x;
     let inner = rect.shrink2(vec2(10.0, 0.0));
     ui.painter().galley(Align2::LEFT_CENTER.align_size_within_rect(galley.size(), inner).min, galley, text);
-    let keys = entry.command.describe().shortcuts.first().map(|s| ui.ctx().format_shortcut(s)).unwrap_or_default();
+    let keys = entry.command.describe().shortcuts.first().map(|s| super::widgets::keys(ui, s)).unwrap_or_default();
     let right = ui.painter().text(inner.right_center(), Align2::RIGHT_CENTER, &keys, small.clone(), weak);
     let tip = format!("{}   {}", entry.group, if width < 0.45 * inner.width() { entry.tooltip.as_str() } else { "" });
     let from = inner.left() + (width + 18.0).max(0.36 * inner.width());

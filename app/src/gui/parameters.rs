@@ -1,11 +1,11 @@
 //! The parameters of the program: sliders, boxes and fields, and sets of values under a name.
 
-use eframe::egui::{self, Align, DragValue, Id, Key, Layout, RichText, Slider, TextEdit, Ui};
+use eframe::egui::{self, Align, Button, DragValue, Id, Key, Layout, RichText, Slider, TextEdit, Ui};
 use vv::ir::{Global, Param, Program};
 use vv::mesh::Value;
 use vv::source::FileId;
 
-use super::widgets::button;
+use super::widgets::tooltip;
 use crate::command::Command;
 use crate::session::Session;
 
@@ -22,7 +22,11 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.spacing_mut().button_padding.x = 5.0;
         ui.label(RichText::new("Parameters").strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            button(ui, session, commands, Command::ResetParams);
+            let reset = Command::ResetParams;
+            let button = ui.add_enabled(reset.is_enabled(session), Button::new("Reset all"));
+            if button.on_hover_ui(|ui| tooltip(ui, &reset)).clicked() {
+                commands.push(reset);
+            }
             let menu = ui.menu_button("Sets", |ui| sets(ui, session, commands)).response;
             menu.on_hover_text("keep the values under a name, and bring them back");
         });
@@ -79,7 +83,7 @@ fn sets(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         field.accessible_name("Name of the set");
         let named = !name.trim().is_empty();
-        let keep = ui.add_enabled(named, egui::Button::new("Keep")).on_hover_text("keep the values as they are now");
+        let keep = ui.add_enabled(named, Button::new("Keep")).on_hover_text("keep the values as they are now");
         if keep.clicked() || entered && named {
             commands.push(Command::SaveParams(name.trim().to_owned()));
             name.clear();
@@ -163,7 +167,7 @@ impl Row<'_> {
     fn reset(&self, ui: &mut Ui, given: bool, commands: &mut Vec<Command>) {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             // Its room is kept, so that nothing moves while a slider does.
-            let reset = ui.add_visible(given, egui::Button::new(RichText::new("reset").small()).small().frame(false));
+            let reset = ui.add_visible(given, Button::new(RichText::new("reset").small()).small().frame(false));
             let name = format!("Reset {}", self.global.name);
             if reset.on_hover_text("as the program says").accessible_name(name).clicked() {
                 commands.push(Command::ResetParam(self.global.name.clone()));

@@ -197,17 +197,17 @@ impl Panel<'_> {
         ui.horizontal_wrapped(|ui| {
             // Lines break between entries, never before a comma.
             ui.spacing_mut().item_spacing = vec2(7.0, 2.0);
-            let first = if ring.len == 0 { format!("{}: {{}}", ring.of) } else { format!("{}: {{", ring.of) };
-            ui.monospace(first);
+            ui.monospace(if ring.len == 0 { format!("{}: {{}}", ring.of) } else { format!("{}:", ring.of) });
             for (i, &entry) in ring.entries.iter().enumerate() {
                 let last = i + 1 == ring.entries.len();
                 let after = if !last || left_out > 0 { "," } else { "}" };
+                let before = if i == 0 { "{" } else { "" };
                 let Some(q) = entry.vertex() else {
-                    ui.monospace(format!("_{after}")).on_hover_text("a gap: the surface is missing here");
+                    ui.monospace(format!("{before}_{after}")).on_hover_text("a gap: the surface is missing here");
                     continue;
                 };
                 let fault = entry.fault(ring.of);
-                let text = format!("{q}{}{after}", if fault.is_some() { "!" } else { "" });
+                let text = format!("{before}{q}{}{after}", if fault.is_some() { "!" } else { "" });
                 match self.here(q, generation) {
                     Some(here) => {
                         let name = format!("{prefix}{q}");

@@ -1,6 +1,6 @@
 //! The dialog that asks how large a picture shall be and what is behind it.
 
-use eframe::egui::{Align, Context, DragValue, Frame, Grid, Id, Key, Layout, Margin, Modal, RichText, Ui};
+use eframe::egui::{Align, Context, DragValue, Frame, Grid, Id, Key, Layout, Margin, Modal, Ui};
 
 use crate::command::Command;
 use crate::preferences::{Background, PictureOptions};
@@ -25,7 +25,7 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
         fields(ui, session, &mut options);
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            save = ui.button(RichText::new("Save…").strong()).clicked();
+            save = ui.add(super::widgets::first_choice(ui, "Save…")).clicked();
             if ui.button("Cancel").clicked() {
                 commands.push(Command::CloseDialog);
             }

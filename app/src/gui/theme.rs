@@ -90,6 +90,7 @@ fn dark() -> Visuals {
     v.widgets.inactive.fg_stroke = Stroke::new(1.0, Color32::from_rgb(0xd6, 0xdb, 0xe3));
     v.widgets.hovered.weak_bg_fill = Color32::from_rgb(0x40, 0x47, 0x52);
     v.widgets.hovered.bg_stroke = Stroke::new(1.0, Color32::from_rgb(0x5b, 0x64, 0x73));
+    v.widgets.open.weak_bg_fill = Color32::from_rgb(0x2f, 0x34, 0x3c);
     v.selection.bg_fill = Color32::from_rgb(0x2b, 0x5a, 0x9e);
     v.selection.stroke = Stroke::new(1.0, Color32::from_rgb(0xe6, 0xf0, 0xff));
     v.hyperlink_color = Color32::from_rgb(0x6c, 0xa8, 0xff);
@@ -114,6 +115,9 @@ fn light() -> Visuals {
     v.widgets.inactive.fg_stroke = Stroke::new(1.0, Color32::from_rgb(0x2b, 0x31, 0x3b));
     v.widgets.hovered.weak_bg_fill = Color32::from_rgb(0xd8, 0xdd, 0xe4);
     v.widgets.hovered.bg_stroke = Stroke::new(1.0, Color32::from_rgb(0x9a, 0xa4, 0xb2));
+    v.widgets.open.weak_bg_fill = Color32::from_rgb(0xe4, 0xe7, 0xec);
+    // White on white would hide where one may type.
+    v.text_edit_bg_color = Some(Color32::from_rgb(0xec, 0xee, 0xf2));
     v.selection.bg_fill = Color32::from_rgb(0xb8, 0xd6, 0xff);
     v.selection.stroke = Stroke::new(1.0, Color32::from_rgb(0x0b, 0x3d, 0x91));
     v.hyperlink_color = Color32::from_rgb(0x1f, 0x62, 0xc4);

@@ -2,8 +2,8 @@
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Button, Color32, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextFormat, TextStyle, Ui,
-    Vec2, WidgetInfo, vec2,
+    Button, Color32, KeyboardShortcut, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextFormat,
+    TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use crate::command::Command;
@@ -113,12 +113,23 @@ pub fn named_icon_button(ui: &mut Ui, icon: Icon, name: &str, enabled: bool) -> 
     .inner
 }
 
+/// Keys as they stand on the keyboard: `Ctrl+,`.
+pub fn keys(ui: &Ui, shortcut: &KeyboardShortcut) -> String {
+    let text = ui.ctx().format_shortcut(shortcut);
+    let (name, sign) = (shortcut.logical_key.name(), shortcut.logical_key.symbol_or_name());
+    // Arrows have signs, too, which nobody knows by heart.
+    match text.strip_suffix(name) {
+        Some(before) if sign.len() == 1 => format!("{before}{sign}"),
+        _ => text,
+    }
+}
+
 /// Tooltip of a command: what it does, and its keys.
 pub fn tooltip(ui: &mut Ui, command: &Command) {
     let description = command.describe();
     ui.horizontal(|ui| {
         ui.label(description.tooltip);
-        let keys: Vec<String> = description.shortcuts.iter().map(|s| ui.ctx().format_shortcut(s)).collect();
+        let keys: Vec<String> = description.shortcuts.iter().map(|s| keys(ui, s)).collect();
         if !keys.is_empty() {
             ui.weak(keys.join(", "));
         }
@@ -129,7 +140,7 @@ pub fn tooltip(ui: &mut Ui, command: &Command) {
 pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command, ticks: bool) {
     const TICK: f32 = 22.0;
     let description = command.describe();
-    let keys = description.shortcuts.first().map(|s| ui.ctx().format_shortcut(s)).unwrap_or_default();
+    let keys = description.shortcuts.first().map(|s| keys(ui, s)).unwrap_or_default();
     let on = command.is_on(session);
     let mut text = LayoutJob::default();
     let font = TextStyle::Button.resolve(ui.style());
@@ -155,6 +166,12 @@ pub fn button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, comma
     if response.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
         commands.push(command);
     }
+}
+
+/// The button of a dialog that is meant for most.
+pub fn first_choice(ui: &Ui, text: &str) -> Button<'static> {
+    let visuals = ui.visuals();
+    Button::new(RichText::new(text).color(visuals.selection.stroke.color)).fill(visuals.selection.bg_fill)
 }
 
 /// A switch as a check box.

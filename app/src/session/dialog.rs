@@ -1,6 +1,11 @@
 //! The questions to the user.
 
+use std::path::PathBuf;
+
+use vv::io::Format;
+
 use crate::command::Command;
+use crate::{project, style_file};
 
 /// What a file is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,6 +35,39 @@ impl Purpose {
     #[must_use]
     pub fn saves(self) -> bool {
         !matches!(self, Self::OpenProgram | Self::OpenMesh | Self::OpenProject | Self::OpenStyle)
+    }
+
+    /// How the names of such files end.
+    #[must_use]
+    pub fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::OpenProgram | Self::SaveProgram => &["vv"],
+            Self::OpenMesh | Self::ExportMesh => &Format::EXTENSIONS,
+            Self::OpenProject | Self::SaveProject => &[project::EXTENSION],
+            Self::SavePicture => &["png", "svg", "eps", "pdf"],
+            Self::OpenStyle | Self::SaveStyle => &[style_file::EXTENSION],
+        }
+    }
+
+    /// The path of a file that is saved, whose name may have been typed without an ending.
+    #[must_use]
+    pub fn with_extension(self, path: PathBuf) -> PathBuf {
+        match self.extensions().first() {
+            Some(extension) if self.saves() && path.extension().is_none() => path.with_extension(extension),
+            _ => path,
+        }
+    }
+
+    /// What such files are called.
+    #[must_use]
+    pub fn files(self) -> &'static str {
+        match self {
+            Self::OpenProgram | Self::SaveProgram => "vv programs",
+            Self::OpenMesh | Self::ExportMesh => "meshes",
+            Self::OpenProject | Self::SaveProject => "vv projects",
+            Self::SavePicture => "pictures and figures",
+            Self::OpenStyle | Self::SaveStyle => "styles",
+        }
     }
 }
 

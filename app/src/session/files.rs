@@ -12,7 +12,7 @@ use super::{Dialog, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::project::{self, Project};
-use crate::{files, library, style_file};
+use crate::{files, library, typed_path};
 
 /// What a style is called, when nobody says.
 const STYLE_NAME: &str = "style.json";
@@ -220,8 +220,7 @@ impl Session {
                 if moved {
                     self.watch_files(); // includes are looked for elsewhere now
                 }
-                let name = self.document.program.name.clone();
-                self.say(Severity::Note, format!("saved {name}"));
+                self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
             }
             Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
         }
@@ -249,7 +248,7 @@ impl Session {
             Ok(()) => {
                 self.set_project(path);
                 self.remember(path);
-                self.say(Severity::Note, format!("saved {}", crate::document::file_name(path)));
+                self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
             }
             Err(error) => self.say(Severity::Error, format!("{}: {error}", path.display())),
         }
@@ -266,7 +265,7 @@ impl Session {
         self.in_background(move || {
             let bytes = vv::io::write(&frame.mesh, &frame.faces, format).map_err(|problem| problem.to_string())?;
             match files::write(&path, &bytes) {
-                Ok(()) => Ok(format!("saved {}", path.display())),
+                Ok(()) => Ok(format!("saved {}", typed_path::shown(&path))),
                 Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
             }
         });
@@ -307,30 +306,13 @@ impl Session {
         if !offers_file_dialog() {
             return self.ask_for_path(purpose);
         }
-        let program = &self.document.program;
-        let mut dialog = rfd::AsyncFileDialog::new();
-        let folder = match (&self.document.mesh, purpose) {
-            (MeshSource::File(path), Purpose::OpenMesh | Purpose::ExportMesh) => path.parent(),
-            _ => program.path.as_deref().and_then(Path::parent),
-        };
-        if let Some(folder) = folder.filter(|f| f.is_absolute()) {
+        let mut dialog = rfd::AsyncFileDialog::new().add_filter(purpose.files(), purpose.extensions());
+        if let Some(folder) = self.folder_for(purpose) {
             dialog = dialog.set_directory(folder);
         }
-        dialog = match purpose {
-            Purpose::OpenProgram | Purpose::SaveProgram => dialog.add_filter("vv programs", &["vv"]),
-            Purpose::OpenProject | Purpose::SaveProject => dialog.add_filter("vv projects", &[project::EXTENSION]),
-            Purpose::OpenMesh | Purpose::ExportMesh => dialog.add_filter("meshes", &Format::EXTENSIONS),
-            Purpose::SavePicture => dialog.add_filter("pictures and figures", &["png", "svg", "eps", "pdf"]),
-            Purpose::OpenStyle | Purpose::SaveStyle => dialog.add_filter("styles", &[style_file::EXTENSION]),
-        };
-        dialog = match purpose {
-            Purpose::SaveProgram => dialog.set_file_name(&program.name),
-            Purpose::ExportMesh => dialog.set_file_name("mesh.obj"),
-            Purpose::SaveProject => dialog.set_file_name(self.project_name()),
-            Purpose::SavePicture => dialog.set_file_name(self.picture_name()),
-            Purpose::SaveStyle => dialog.set_file_name(STYLE_NAME),
-            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => dialog,
-        };
+        if purpose.saves() {
+            dialog = dialog.set_file_name(self.name_for(purpose));
+        }
         let (sender, result) = mpsc::channel();
         let wake = Arc::clone(&self.wake);
         std::thread::spawn(move || {
@@ -343,9 +325,28 @@ impl Session {
         self.chooser = Some(Chooser { purpose, since: Instant::now(), result });
     }
 
-    fn project_name(&self) -> String {
-        let name = &self.document.program.name;
-        format!("{}.{}", name.strip_suffix(".vv").unwrap_or(name), project::EXTENSION)
+    /// Where a file of this kind was found last.
+    fn folder_for(&self, purpose: Purpose) -> Option<&Path> {
+        let folder = match (&self.document.mesh, purpose) {
+            (MeshSource::File(path), Purpose::OpenMesh | Purpose::ExportMesh) => path.parent(),
+            _ => self.document.program.path.as_deref().and_then(Path::parent),
+        };
+        folder.filter(|folder| folder.is_absolute())
+    }
+
+    /// What a file that is saved may be called.
+    fn name_for(&self, purpose: Purpose) -> String {
+        let program = &self.document.program.name;
+        let program = program.strip_suffix(".vv").unwrap_or(program);
+        match purpose {
+            Purpose::SaveProgram => self.document.program.name.clone(),
+            // The mesh and the picture of one generation stay when those of the next come.
+            Purpose::ExportMesh => format!("{program}-{}.obj", self.shown_generation()),
+            Purpose::SavePicture => format!("{program}-{}.png", self.shown_generation()),
+            Purpose::SaveProject => format!("{program}.{}", project::EXTENSION),
+            Purpose::SaveStyle => STYLE_NAME.to_owned(),
+            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => String::new(),
+        }
     }
 
     pub(super) fn take_choice(&mut self) {
@@ -366,14 +367,9 @@ impl Session {
 
     /// Asks for a path in a dialog of our own.
     fn ask_for_path(&mut self, purpose: Purpose) {
-        let path = match purpose {
-            Purpose::SaveProgram => self.document.program.name.clone(),
-            Purpose::ExportMesh => "mesh.obj".to_owned(),
-            Purpose::SaveProject => self.project_name(),
-            Purpose::SavePicture => self.picture_name(),
-            Purpose::SaveStyle => STYLE_NAME.to_owned(),
-            Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => String::new(),
-        };
+        let folder = self.folder_for(purpose).map(Path::to_owned).or_else(|| std::env::current_dir().ok());
+        let folder = folder.map_or_else(String::new, |folder| typed_path::shown(&folder));
+        let path = format!("{}/{}", folder.trim_end_matches('/'), self.name_for(purpose));
         let then = match self.dialog.take() {
             Some(Dialog::Unsaved { then }) => Some(then),
             _ => None,
@@ -387,21 +383,22 @@ impl Session {
             Some(Dialog::Unsaved { then } | Dialog::TypePath { then: Some(then), .. }) => Some(*then),
             _ => None,
         };
+        let path = purpose.with_extension(path);
         match purpose {
             Purpose::OpenProgram => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_program(&path)),
             Purpose::OpenMesh => self.use_mesh(MeshSource::File(path)),
             Purpose::SaveProgram => {
-                self.save_to(&with_extension(path, "vv"));
+                self.save_to(&path);
                 if let Some(then) = then.filter(|_| !self.document.program.is_modified()) {
                     self.carry_out(then);
                 }
             }
-            Purpose::ExportMesh => self.export_to(with_extension(path, "obj")),
+            Purpose::ExportMesh => self.export_to(path),
             Purpose::OpenProject => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_project(&path)),
-            Purpose::SaveProject => self.save_project(&with_extension(path, project::EXTENSION)),
-            Purpose::SavePicture => self.picture_to(with_extension(path, "png")),
+            Purpose::SaveProject => self.save_project(&path),
+            Purpose::SavePicture => self.picture_to(path),
             Purpose::OpenStyle => self.open_style(&path),
-            Purpose::SaveStyle => self.save_style(&with_extension(path, style_file::EXTENSION)),
+            Purpose::SaveStyle => self.save_style(&path),
         }
     }
 
@@ -476,10 +473,6 @@ pub(super) fn is_program(path: &Path) -> bool {
 /// Whether a path is that of a project.
 pub(super) fn is_project(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(project::EXTENSION))
-}
-
-fn with_extension(path: PathBuf, extension: &str) -> PathBuf {
-    if path.extension().is_some() { path } else { path.with_extension(extension) }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::preferences::{Background, PictureOptions};
 use crate::render::{self, Size};
 use crate::scene::{Style, Theme};
 use crate::style_file::StyleFile;
-use crate::{figure, files, gallery, library};
+use crate::{figure, files, gallery, library, typed_path};
 use vv::diagnostic::Severity;
 use vv::stop::Stop;
 
@@ -62,11 +62,6 @@ impl Session {
         Notes { labels: self.document.annotations.labels.clone(), rings }
     }
 
-    pub(super) fn picture_name(&self) -> String {
-        let name = &self.document.program.name;
-        format!("{}.png", name.strip_suffix(".vv").unwrap_or(name))
-    }
-
     /// Writes a figure of lines and areas.
     fn figure_to(&mut self, path: PathBuf, format: figure::Format) {
         let Some(frame) = self.frame.clone() else { return };
@@ -87,7 +82,8 @@ impl Session {
             let drawing = drawing.ok_or_else(|| failed("nothing of the mesh is seen".to_owned()))?;
             let bytes = figure::write(&drawing, format);
             files::write(&path, &bytes).map_err(|e| failed(e.diagnostic.message.clone()))?;
-            Ok(if drawing.is_exact { format!("saved {name}") } else { format!("saved {name}: {}", figure::ROUGH) })
+            let saved = format!("saved {}", typed_path::shown(&path));
+            Ok(if drawing.is_exact { saved } else { format!("{saved}: {}", figure::ROUGH) })
         });
     }
 
@@ -118,7 +114,7 @@ impl Session {
             let mut bytes = Cursor::new(Vec::new());
             image.write_to(&mut bytes, image::ImageFormat::Png).map_err(|e| failed(e.to_string()))?;
             files::write(&path, &bytes.into_inner()).map_err(|e| failed(e.diagnostic.message.clone()))?;
-            Ok(format!("saved {name}, {} × {} pixels", size.width, size.height))
+            Ok(format!("saved {}, {} × {} pixels", typed_path::shown(&path), size.width, size.height))
         });
     }
 

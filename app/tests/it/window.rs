@@ -8,6 +8,7 @@ mod inspecting;
 mod keeping;
 mod masks;
 mod palette;
+mod paths;
 mod reach;
 mod subdividing;
 mod timeline;

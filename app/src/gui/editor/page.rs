@@ -6,6 +6,7 @@ use eframe::egui::text::CCursor;
 use eframe::egui::{
     Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, TextStyle, Ui, pos2,
 };
+use vv::assist::number_at;
 use vv::diagnostic::Severity;
 
 use super::super::theme;
@@ -71,6 +72,11 @@ impl Page<'_> {
         let before = self.galley.pos_from_cursor(cursor).left() + self.origin.x > pos.x;
         let back = self.text[..byte].chars().next_back().map_or(0, char::len_utf8);
         Some(if before { byte - back } else { byte })
+    }
+
+    /// The number or the name under a point.
+    pub fn word_at(&self, pos: Pos2) -> Option<Range<usize>> {
+        word_at(self.text, self.byte_at(pos)?)
     }
 
     /// Frames round brackets that belong together; red round one that stands alone.
@@ -204,4 +210,34 @@ pub fn char_of(text: &str, byte: usize) -> usize {
 /// Where a character begins.
 pub fn byte_of(text: &str, index: usize) -> usize {
     text.char_indices().nth(index).map_or(text.len(), |(byte, _)| byte)
+}
+
+/// The number, or the name, that a letter belongs to.
+fn word_at(text: &str, byte: usize) -> Option<Range<usize>> {
+    let number = number_at(text, byte).map(|number| number.range).filter(|range| range.contains(&byte));
+    number.or_else(|| {
+        let in_name = |c: char| c.is_alphanumeric() || c == '_';
+        let (before, after) = (text.get(..byte)?, text.get(byte..)?);
+        let start = before.trim_end_matches(in_name).len();
+        let end = byte + after.len() - after.trim_start_matches(in_name).len();
+        text[byte..].starts_with(in_name).then_some(start..end)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_a_number_or_a_name() {
+        let text = "return 3.0/-8.5 * `p$pos;";
+        let word = |byte| word_at(text, byte).map(|range| &text[range]);
+        assert_eq!(word(2), Some("return"));
+        assert_eq!(word(6), None);
+        assert_eq!([word(7), word(8), word(9)], [Some("3.0"); 3]);
+        assert_eq!(word(10), None);
+        assert_eq!(word(13), Some("-8.5"));
+        assert_eq!(word(19), Some("p"));
+        assert_eq!(word(22), Some("pos"));
+    }
 }

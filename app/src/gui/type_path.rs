@@ -1,0 +1,141 @@
+//! Asks for a path where the system offers no file dialog, with what is in the folder that is typed.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::{Button, EventFilter, Id, Key, RichText, ScrollArea, TextEdit, Ui};
+
+use super::widgets;
+use crate::command::Command;
+use crate::session::Purpose;
+use crate::typed_path::{self, Entry};
+
+/// Rows of the list that are seen at once.
+const ROWS: f32 = 6.0;
+
+/// What is known of the folder that is typed.
+#[derive(Clone)]
+struct Listing {
+    folder: PathBuf,
+    entries: Arc<[Entry]>,
+    /// The pass it was last used in: one that was shown a while ago is read anew.
+    used: u64,
+    /// Whether the keys have gone to the field, which a dialog does not give them in its first pass.
+    has_begun: bool,
+}
+
+/// Shows it in a dialog. Returns what was chosen.
+pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec<Command>) -> Option<PathBuf> {
+    let (title, verb) = match purpose {
+        Purpose::OpenProgram => ("Open program", "Open"),
+        Purpose::OpenMesh => ("Open mesh", "Open"),
+        Purpose::SaveProgram => ("Save program as", "Save"),
+        Purpose::ExportMesh => ("Save mesh as", "Save"),
+        Purpose::OpenProject => ("Open project", "Open"),
+        Purpose::SaveProject => ("Save project as", "Save"),
+        Purpose::SavePicture => ("Save picture as", "Save"),
+        Purpose::OpenStyle => ("Load style", "Load"),
+        Purpose::SaveStyle => ("Save style as", "Save"),
+    };
+    let id = Id::unique("path");
+    ui.heading(title);
+    ui.add_space(4.0);
+    let label = ui.label("This system offers no file dialog; type the path of the file.");
+    let listing = listing(ui, path, purpose, id);
+    if !listing.has_begun {
+        ui.memory_mut(|m| m.request_focus(id));
+        // Typing names another file in the same folder.
+        select(ui, id, path, path.rfind('/').map_or(0, |slash| slash + 1), path.len());
+    }
+    let fitting: Vec<&Entry> = typed_path::fitting(&listing.entries, path).collect();
+    let completion = typed_path::completion(&fitting, path);
+    let tab = ui.memory(|m| m.has_focus(id)) && completion.is_some() && ui.input(|i| i.key_pressed(Key::Tab));
+    // Tab completes while there is something to complete, else it goes on.
+    let keys = EventFilter { tab: completion.is_some(), horizontal_arrows: true, ..EventFilter::default() };
+    let field = TextEdit::singleline(path).id(id).hint_text("path").desired_width(f32::INFINITY).event_filter(keys);
+    let response = ui.add(field).labelled_by(label.id);
+    let mut changed = completion.filter(|_| tab);
+    list(ui, &fitting, path, &mut changed);
+
+    let typed = purpose.with_extension(typed_path::expand(path));
+    let named = !path.trim().is_empty() && !path.ends_with('/');
+    let (possible, said) = match (named, purpose.saves()) {
+        (false, _) => (false, None),
+        (true, true) if typed.is_dir() => (false, Some("This is a folder.")),
+        (true, true) if typed.exists() => (true, Some("This file exists and will be replaced.")),
+        (true, true) => (true, None),
+        (true, false) if typed.is_file() => (true, None),
+        (true, false) if !fitting.is_empty() => (false, None),
+        (true, false) => (false, Some("There is no such file.")),
+    };
+    match said {
+        Some(said) if possible => ui.label(RichText::new(said).color(ui.visuals().warn_fg_color)),
+        Some(said) => ui.label(RichText::new(said).weak()),
+        None => ui.label(" "),
+    };
+    ui.add_space(8.0);
+    let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+    let mut go = false;
+    ui.horizontal(|ui| {
+        go = ui.add_enabled_ui(possible, |ui| ui.add(widgets::first_choice(ui, verb))).inner.clicked();
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+    if let Some(changed) = changed {
+        *path = changed;
+        select(ui, id, path, path.len(), path.len());
+        response.request_focus();
+    } else if possible && (go || entered) {
+        return Some(typed);
+    } else if entered {
+        response.request_focus();
+    }
+    None
+}
+
+/// What is in the folder that is typed. Reads a folder once.
+fn listing(ui: &Ui, path: &str, purpose: Purpose, field: Id) -> Listing {
+    let key = Id::unique("folder").with(purpose as u8);
+    let folder = typed_path::folder(path);
+    let pass = ui.ctx().cumulative_pass_nr();
+    let known = ui.data(|data| data.get_temp::<Listing>(key)).filter(|known| known.used + 2 >= pass);
+    let has_begun = known.as_ref().is_some_and(|known| known.has_begun) || ui.memory(|m| m.has_focus(field));
+    let entries = match known {
+        Some(known) if known.folder == folder => known.entries,
+        _ => typed_path::entries(&folder, purpose.extensions()),
+    };
+    let listing = Listing { folder, entries, used: pass, has_begun };
+    ui.data_mut(|data| data.insert_temp(key, listing.clone()));
+    listing
+}
+
+/// What is there that begins as is typed, to be clicked.
+fn list(ui: &mut Ui, fitting: &[&Entry], path: &str, changed: &mut Option<String>) {
+    ui.add_space(2.0);
+    let row = ui.spacing().interact_size.y;
+    let height = ROWS * row;
+    let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height).auto_shrink(false);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    area.show_rows(ui, row, fitting.len(), |ui, rows| {
+        for entry in fitting.get(rows).unwrap_or_default() {
+            let name = RichText::new(entry.shown());
+            let name = if entry.is_folder { name } else { name.strong() };
+            if ui.add(Button::selectable(false, name).min_size(eframe::egui::vec2(ui.available_width(), row))).clicked()
+            {
+                *changed = Some(typed_path::join(path, entry));
+            }
+        }
+    });
+    ui.spacing_mut().item_spacing.y = 5.0;
+    ui.add_space(5.0);
+}
+
+/// Bytes of the path.
+fn select(ui: &Ui, id: Id, path: &str, start: usize, end: usize) {
+    let char_of = |byte: usize| CCursor::new(path.get(..byte).map_or(0, |before| before.chars().count()));
+    let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+    state.cursor.set_char_range(Some(CCursorRange::two(char_of(start), char_of(end))));
+    state.store(ui.ctx(), id);
+}
