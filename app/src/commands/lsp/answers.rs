@@ -138,6 +138,7 @@ fn explained(usage: &str, doc: &str) -> MarkupContent {
 pub fn completion(documents: &Documents, document: &Document, offset: usize) -> Option<CompletionResponse> {
     let completions = documents.analysis(document).assist.complete(offset);
     let range = documents.encoding.range(&document.text, completions.replaces);
+    let called_already = document.text.get(offset..).is_some_and(|behind| behind.starts_with('('));
     let items = completions.entries.into_iter().enumerate().map(|(i, entry)| CompletionItem {
         kind: Some(match entry.class {
             TokenClass::Function => CompletionItemKind::FUNCTION,
@@ -152,7 +153,10 @@ pub fn completion(documents: &Documents, document: &Document, offset: usize) -> 
         // In our order, not that of the alphabet.
         sort_text: Some(format!("{i:05}")),
         filter_text: Some(entry.label.clone()),
-        text_edit: Some(CompletionTextEdit::Edit(TextEdit { range, new_text: entry.insert })),
+        text_edit: Some(CompletionTextEdit::Edit(TextEdit {
+            range,
+            new_text: if called_already { entry.label.clone() } else { entry.insert },
+        })),
         label: entry.label,
         ..CompletionItem::default()
     });

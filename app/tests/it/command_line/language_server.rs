@@ -249,6 +249,13 @@ fn what_can_stand_somewhere_is_offered() {
     let list = editor.at("textDocument/completion", "step.vv", "ra¦ise", json!({})).unwrap();
     assert_eq!(list[0]["textEdit"]["newText"], "raise(");
     assert_eq!(start(&list[0]["textEdit"]["range"]), "4:5");
+    let list = editor.at("textDocument/completion", "step.vv", "raise¦(", json!({})).unwrap();
+    assert_eq!(list, json!([]), "it is written out");
+    editor.end();
+    let mut editor = Editor::with(&[("called.vv", "void step(mesh& S) { forall v in S v$pos *= co(1.0); }\n")]);
+    editor.open("called.vv");
+    let list = editor.at("textDocument/completion", "called.vv", "co¦(", json!({})).unwrap();
+    assert_eq!(list[0]["textEdit"]["newText"], "cos", "it is called already");
     editor.end();
 }
 
