@@ -199,11 +199,18 @@ enum Exit {
 /// Runs what the command line says.
 pub fn main() -> ExitCode {
     let began = Instant::now();
-    let cli = Cli::parse();
+    let result = match Cli::try_parse() {
+        Ok(cli) => carry_out(cli, began),
+        Err(answer) => shell::explain(&answer),
+    };
+    result.map_or_else(|exit| ExitCode::from(exit as u8), |()| ExitCode::SUCCESS)
+}
+
+fn carry_out(cli: Cli, began: Instant) -> Result<(), Exit> {
     if cli.command.is_some() {
         interrupt::leave_nothing_behind();
     }
-    let result = match cli.command {
+    match cli.command {
         None => open::open(&cli.files, cli.view.as_deref()),
         Some(Command::Run(arguments)) => run::run(&arguments, began),
         Some(Command::Watch(arguments)) => watch::watch(&arguments),
@@ -216,8 +223,7 @@ pub fn main() -> ExitCode {
         Some(Command::Man(arguments)) => shell::man(&arguments),
         Some(Command::Mesh(MeshCommand::Diff(arguments))) => diff::diff(&arguments),
         Some(Command::Mesh(MeshCommand::Convert(arguments))) => convert::convert(&arguments),
-    };
-    result.map_or_else(|exit| ExitCode::from(exit as u8), |()| ExitCode::SUCCESS)
+    }
 }
 
 /// A message about the run as a whole.

@@ -366,6 +366,39 @@ impl Scene {
         camera.fit_points(points, bounds, aspect)
     }
 
+    /// `camera` looking from the same side at all that `style` shows, as close as it gets while that turns around the line
+    /// through the middle of its ball along `axis`, of length one. Cost: linear in the vertices.
+    ///
+    /// What a vertex, at the height h and the distance r of the line, passes on its way reaches farthest in a direction d
+    /// where it is `h (d · axis) + r |d − (d · axis) axis|` far.
+    #[must_use]
+    pub fn fit_turning(&self, camera: Camera, axis: DVec3, style: &Style, aspect: f64) -> Camera {
+        let bounds = self.bounds(style);
+        let parts = &[&self.mesh, &self.control][..if style.control { 2 } else { 1 }];
+        let corners = parts.iter().flat_map(|part| &part.corners[..part.vertex_count as usize]);
+        let directions = camera.decisive_directions(aspect).map(|d| {
+            let along = d.dot(axis);
+            (along, d - along * axis)
+        });
+        let mut farthest = [(f64::NEG_INFINITY, 0.0, 0.0); 4];
+        for corner in corners {
+            let p = self.to_world(corner.position.into()) - bounds.center;
+            let height = p.dot(axis);
+            let radius = (p - height * axis).length();
+            for (farthest, (along, beside)) in farthest.iter_mut().zip(directions) {
+                let reach = height * along + radius * beside.length();
+                if reach > farthest.0 {
+                    *farthest = (reach, height, radius);
+                }
+            }
+        }
+        let reached = farthest.into_iter().zip(directions).filter(|(farthest, _)| farthest.0.is_finite());
+        let points = reached.map(|((_, height, radius), (_, beside))| {
+            bounds.center + height * axis + radius * beside.normalize_or_zero()
+        });
+        camera.fit_points(points, bounds, aspect)
+    }
+
     /// World position of a point of the scene.
     #[must_use]
     pub fn to_world(&self, p: Vec3) -> DVec3 {

@@ -7,7 +7,7 @@ use clap::Args;
 use vv::source::Sources;
 
 use super::report::Reporter;
-use super::{EXIT_CODES, Exit, Reporting, error, input};
+use super::{EXIT_CODES, Exit, Reporting, error, input, output};
 
 /// What `vv fmt` takes.
 #[derive(Debug, Args)]
@@ -56,5 +56,5 @@ fn one(path: &Path, check: bool, reporter: &Reporter) -> Result<(), Exit> {
     if check || !changed && !files::is_standard_stream(path) {
         return Ok(());
     }
-    files::write(path, formatted.as_bytes()).map_err(failed)
+    output::commit(vec![files::prepare(path, formatted.as_bytes()).map_err(failed)?], reporter)
 }

@@ -20,7 +20,8 @@ pub struct LookArguments {
     /// step), x, y, z, or a vertex property; `NAME:color` takes a vec as red, green, blue.
     #[arg(long, value_name = "WHAT", value_parser = quantity)]
     color_by: Option<Quantity>,
-    /// The numbers at both ends of the colours. Default: what most of the numbers lie between.
+    /// The numbers at both ends of the colours. Default: what most of the numbers lie between, of all that is side by side
+    /// in one picture, or in one film.
     #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true, value_parser = range)]
     color_range: Option<[f64; 2]>,
     /// Draw arrows: vertex-normals, face-normals, or a vertex property of type vec.

@@ -53,7 +53,6 @@ fn explained(cause: &str, display: &str) -> Diagnostic {
 }
 
 /// What works without graphics.
-pub const WITHOUT_GPU: &str = "meshes and `--summary json` need no graphics driver";
 const WITHOUT_WINDOW: &str = "`vv run PROGRAM -i MESH -o out.obj` works without window";
 const PACKAGES: &str = "on Debian and Ubuntu a window needs the packages libxkbcommon-x11-0, libxcursor1, libxi6, \
                         libx11-xcb1, libvulkan1 and a driver such as mesa-vulkan-drivers";

@@ -20,7 +20,6 @@ use vv::source::Sources;
 use vv::stop::Stop;
 
 use super::look::{self, Look};
-use super::open::WITHOUT_GPU;
 use super::output::Size;
 use super::report::Reporter;
 use super::{Exit, error, fail};
@@ -48,6 +47,10 @@ pub fn keep_driver_quiet() {
         }
     }
 }
+
+/// What pictures need; everything else does without.
+const WITHOUT_DRIVER: &str = "pictures (.png, .gif) need a Vulkan driver, and there is none: on Debian and Ubuntu \
+                              `apt install mesa-vulkan-drivers libvulkan1` brings one that draws without a graphics card";
 
 /// Samples for each pixel, when nobody says.
 const SAMPLES: u32 = 4;
@@ -236,16 +239,36 @@ pub fn camera(exhibits: &[&Exhibit<'_>], shot: Shot<'_>) -> Camera {
 /// From where a mesh is seen while one goes around it once, to the right, in so many steps; from everywhere it is whole.
 pub fn around(exhibit: &Exhibit<'_>, shot: Shot<'_>, steps: u32) -> Vec<Camera> {
     let (style, aspect) = (shot.style(), render::Size::new(shot.size.0, shot.size.1).aspect());
-    let first = match (camera(&[exhibit], shot), shot.viewpoint) {
-        (camera, Some(Viewpoint::At(_))) => camera,
-        (camera, _) => camera.fit(exhibit.scene.bounds(&style), aspect),
+    let (axis, camera) = (style.up.axis(), camera(&[exhibit], shot));
+    let (first, middle) = match shot.viewpoint {
+        Some(Viewpoint::At(_)) => (camera, camera.pivot),
+        _ => (exhibit.scene.fit_turning(camera, axis, &style, aspect), exhibit.scene.bounds(&style).center),
     };
     let turned = |step: u32| {
-        let angle = std::f64::consts::TAU * f64::from(step) / f64::from(steps);
-        let turn = DQuat::from_axis_angle(style.up.axis(), angle);
-        Camera { world_from_view: (turn * first.world_from_view).normalize(), ..first }
+        let turn = DQuat::from_axis_angle(axis, std::f64::consts::TAU * f64::from(step) / f64::from(steps));
+        let pivot = middle + turn * (first.pivot - middle);
+        Camera { world_from_view: (turn * first.world_from_view).normalize(), pivot, ..first }
     };
     (0..steps).map(turned).collect()
+}
+
+/// Gives colours of numbers one range for all of them, from the lowest to the highest end of those that each would have:
+/// what is seen side by side, or one after the other, can be compared. A range that was asked for stays.
+pub fn in_one_range<'e, 'm: 'e>(exhibits: impl Iterator<Item = &'e mut Exhibit<'m>>, look: &Look) {
+    if look.annotations.range.is_some() {
+        return;
+    }
+    let mut tints: Vec<_> =
+        exhibits.filter_map(|exhibit| exhibit.tint.as_mut().filter(|tint| tint.has_range())).collect();
+    let range = |tint: &&mut Tint| match tint.legend.extremes? {
+        [low, high] if low < high => Some(tint.legend.range),
+        one => Some(one), // all the same: no range of its own
+    };
+    let ranges = tints.iter().filter_map(range);
+    let Some(common) = ranges.reduce(|[a, b], [low, high]| [a.min(low), b.max(high)]) else { return };
+    for tint in &mut tints {
+        **tint = tint.with_range(Some(common));
+    }
 }
 
 /// Pictures of one size, one after the other; `take` gets each.
@@ -261,10 +284,14 @@ pub fn draw(
     let size = render::Size::new(shot.size.0, shot.size.1);
     let style = shot.style();
     let failed = |problem: RenderError| {
-        let diagnostic = error(format!("the picture cannot be drawn: {problem}"));
         let diagnostic = match problem {
-            RenderError::NoRenderer(_) => diagnostic.hint(WITHOUT_GPU),
-            RenderError::TooLarge(_) | RenderError::Failed(_) => diagnostic,
+            RenderError::NoRenderer(none) if std::env::var_os("WGPU_ADAPTER_NAME").is_some() => {
+                error(WITHOUT_DRIVER).evidence(none.cause)
+            }
+            RenderError::NoRenderer(_) => error(WITHOUT_DRIVER),
+            RenderError::TooLarge(why) | RenderError::Failed(why) => {
+                error(format!("the picture cannot be drawn: {why}"))
+            }
         };
         reporter.report(&[diagnostic], &Sources::default());
         Exit::NoRenderer

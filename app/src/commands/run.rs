@@ -322,6 +322,7 @@ impl Run<'_> {
             result = result.and(ended);
         }
         if self.plan.cases().len() > 1 {
+            picture::in_one_range(exhibits.values_mut(), self.shot.look);
             result = result.and(self.sheets(&exhibits).and_then(|sheets| self.commit(sheets, &mut tally)));
         }
         result.map(|()| tally)
@@ -367,6 +368,7 @@ impl Run<'_> {
         };
         let state = self.generations(case, state, printer, &mut |state| self.show(case, state, &mut made))?;
         if self.plan.cases().len() == 1 {
+            picture::in_one_range(made.exhibits.values_mut(), self.shot.look);
             made.prepared.extend(self.sheets(&made.exhibits)?);
         }
         let counts = if self.way.counting { Some(self.count(&state.mesh)?) } else { None };

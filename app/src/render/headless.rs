@@ -82,7 +82,12 @@ impl Headless {
             16..64 => (4, 2),
             _ => (4, 4),
         };
-        Ok(Self { renderer: Renderer::new(&device, &queue, samples)?, fine })
+        let renderer = Renderer::new(&device, &queue, samples).map_err(|error| match adapter.get_info().backend {
+            // Of what is drawn some needs more than every OpenGL can do: it counts as none.
+            wgpu::Backend::Gl => NoRenderer { cause: format!("OpenGL alone does not do: {error}") }.into(),
+            _ => error,
+        })?;
+        Ok(Self { renderer, fine })
     }
 
     /// Brings a scene to the GPU.

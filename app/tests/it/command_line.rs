@@ -3,8 +3,10 @@
 mod budgets;
 mod figures;
 mod files;
+mod headless;
 mod language_server;
 mod layout;
+mod losses;
 mod masks;
 mod meshes;
 mod outputs;

@@ -80,25 +80,6 @@ fn a_reference_that_is_no_picture_is_refused() {
     check("run triangle.vv --reference none.png", 3, "none.png: there is no such file or directory");
 }
 
-/// Nothing at all is drawn to where the Vulkan loader is told to look for drivers in a file that is none.
-#[cfg(target_os = "linux")]
-#[test]
-fn without_a_driver_meshes_are_made_and_pictures_say_what_they_need() {
-    let folder = Folder::with(&[]);
-    let run = |arguments| {
-        let mut command = folder.command(arguments);
-        for variable in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
-            command.env(variable, "/dev/null");
-        }
-        command.env("WGPU_BACKEND", "vulkan").output().unwrap()
-    };
-    let output = run("run move.vv -i octahedron.obj -o a.obj -o a.png");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(6), "{said}");
-    assert!(said.contains("mesa-vulkan-drivers") && !folder.names().contains(&"a.obj".to_owned()), "{said}");
-    assert_eq!(run("run move.vv -i octahedron.obj -o a.obj --summary json").status.code(), Some(0));
-}
-
 #[test]
 fn a_picture_is_coloured_by_what_is_asked_for() {
     let folder = Folder::with(&[]);

@@ -221,3 +221,38 @@ fn a_film_holds_all_pictures_and_is_the_same_each_time() {
     assert_eq!(film("-D far=0,1", "c.gif").1, 2);
     assert_eq!(film("--turntable 5", "d.gif").0, film("--turntable 5", "a.gif").0);
 }
+
+/// The octahedron reaches from -1 to 1, and one step further from 0 to 2.
+#[test]
+fn colours_mean_the_same_numbers_all_over_a_sheet_and_a_film() {
+    let folder = Folder::with(&[]);
+    let steps = "--generations 0,1 --color-by x";
+    for (arguments, name) in [(steps, "a.png"), (steps, "a.gif"), ("-D far=0,1 --color-by x", "a.png")] {
+        let draw = |more: &str| {
+            folder.check(&format!("run move.vv -i octahedron.obj {arguments} {more} -o {name} --size 240x90"), 0, "");
+            fs::read(folder.path(name)).unwrap()
+        };
+        let by_itself = draw("");
+        assert_ne!(by_itself, draw("--color-range -1,1"), "{arguments}");
+        assert_eq!(by_itself, draw("--color-range -1,2"), "{arguments}");
+    }
+}
+
+/// Of a plate that turns, seen from above, the ball is much higher than what is seen.
+#[test]
+fn a_turntable_comes_as_near_as_all_its_pictures_allow() {
+    let plate = "OFF\n4 1 0\n-1 0 -1\n-1 0 1\n1 0 1\n1 0 -1\n4 0 1 2 3\n";
+    let folder = Folder::with(&[("plate.off", plate)]);
+    let look = "--style no-edges,transparent --size 160x60";
+    folder.check(&format!("run move.vv -i plate.off -n 0 --turntable 8 {look} -o f_{{frame}}.png"), 0, "");
+    let (mut left, mut right) = (u32::MAX, 0);
+    for frame in 0..8 {
+        let picture = image::open(folder.path(&format!("f_{frame}.png"))).unwrap().into_rgba8();
+        let seen = picture.enumerate_pixels().filter(|(.., pixel)| pixel.0[3] > 0);
+        for (x, y, _) in seen {
+            assert!((1..159).contains(&x) && (1..59).contains(&y), "frame {frame} is cut off at {x}, {y}");
+            (left, right) = (left.min(x), right.max(x));
+        }
+    }
+    assert!(right - left > 120, "{left} to {right}");
+}

@@ -73,5 +73,5 @@ fn shells_and_man_know_the_commands() {
     folder.check("man .", 0, "");
     assert!(folder.read("vv-mesh-diff.1").contains("tolerance"));
     assert!(folder.read("vv.1").contains("Exit codes"));
-    folder.check("man nowhere", 3, "nowhere: ");
+    folder.check("man nowhere", 3, "there is no directory `nowhere`");
 }
