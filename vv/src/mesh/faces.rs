@@ -15,7 +15,7 @@
 //! ψ⁻¹(v, w) = (next_v w, v), so r ψ⁻¹ r (w, v) = r ψ⁻¹(v, w) = r(next_v w, v) = (v, next_v w) = φ(w, v). Hence
 //! φ = r ψ⁻¹ r: the orbits of φ are those of ψ with every edge reversed, in reversed order. ∎
 
-use super::finder::Finder;
+use super::finder::{Beside, Finder};
 use super::members::Members;
 use super::{Mesh, Vertex, VertexSet};
 use crate::stop::{Stop, Stopped};
@@ -114,16 +114,16 @@ pub fn faces_of(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<Faces, Stop
 /// Finds the faces of one vertex after the other: those of which it is the oldest corner.
 ///
 /// The face on the left of v→x begins at v only if x and the neighbour that follows x are younger than v, for the face
-/// comes back from there. Their places for v are looked up once, and a triangle is seen by comparing what stands beside
-/// them: each pair of neighbours is looked up once, as knowing all twins would take, but nothing is stored.
+/// comes back from there: one comparison of all slots tells. In a triangle each of the two stands beside v in the other's
+/// ring, in a quad the same vertex does in both.
 struct Walker<'a> {
     finder: Finder<'a>,
     members: Members,
     faces: Faces,
     /// For each vertex the slot at which its first face leaves it, or [`NONE`].
     first: Vec<u32>,
-    /// For each slot of the vertex in hand that holds a younger one its place there.
-    places: Vec<u32>,
+    /// For each vertex the slots at which faces leave it that were found from older corners: a bit for each of the first.
+    found: Vec<u8>,
     /// The orbit in hand: each corner with the slot by which it is left.
     path: Vec<(Vertex, u32)>,
     /// Slots of the arena that long walks have passed; empty while there was none.
@@ -139,72 +139,114 @@ impl<'a> Walker<'a> {
             // Room that is not needed is never touched.
             faces: Faces { corners: Vec::with_capacity(slots), ends: Vec::with_capacity(slots / 3) },
             first: vec![NONE; mesh.vertex_count()],
-            places: Vec::new(),
+            found: vec![0; mesh.vertex_count()],
             path: Vec::new(),
             visited: Vec::new(),
         }
     }
 
     fn add_faces_from(&mut self, v: Vertex, stop: &Stop) -> Result<(), Stopped> {
-        let ring = self.finder.ring(v);
-        // One after the other, so that the processor can wait for many at once.
-        self.places.clear();
-        self.places.extend(ring.iter().map(|&slot| match slot {
-            Some(x) if x > v && self.members.contains(x) => self.finder.find(v, x).unwrap_or(NONE),
-            _ => NONE,
-        }));
-        let start = match self.first[v.index()] {
-            NONE => 0,
-            slot => slot as usize,
-        };
-        for i in (start..ring.len()).chain(0..start) {
-            let next = if i + 1 == ring.len() { 0 } else { i + 1 };
-            let (Some(x), Some(w)) = (ring[i], ring[next]) else { continue };
-            let (at_x, at_w) = (self.places[i], self.places[next]);
-            if at_x == NONE || at_w == NONE {
-                continue;
-            }
-            let (leaves_x, to) = before(self.finder.ring(x), at_x);
-            let from = after(self.finder.ring(w), at_w);
-            // Gaps are less than every vertex. An older corner has this face already, if it is one.
-            if (to < Some(v)) | (from < Some(v)) {
-                continue;
-            }
-            if to == Some(w) && from == Some(x) && x != w {
-                self.add(&[(v, i as u32), (x, leaves_x), (w, at_w)]);
-                continue;
-            }
-            self.path.clear();
-            self.path.extend([(v, i as u32), (x, leaves_x)]);
-            match self.walk_short((w, at_w), to) {
-                Walk::Face => {
-                    let path = std::mem::take(&mut self.path);
-                    self.add(&path);
-                    self.path = path;
-                }
-                Walk::NoFace => {}
-                Walk::Long => {
-                    if self.walk_long(v, i as u32, stop)? {
-                        let path = std::mem::take(&mut self.path);
-                        self.add(&path);
-                        self.path = path;
-                    }
+        let Some(ring) = self.finder.short(v) else { return self.add_faces_from_long(v, stop) };
+        let pairs = ring.younger_pairs(v) & !u32::from(self.found[v.index()]);
+        if pairs == 0 {
+            return Ok(());
+        }
+        let first = self.first[v.index()];
+        let from_first = if first == NONE { u32::MAX } else { u32::MAX << first };
+        for mut pairs in [pairs & from_first, pairs & !from_first] {
+            while pairs != 0 {
+                let i = pairs.trailing_zeros();
+                pairs &= pairs - 1;
+                if let (Some(x), Some(w)) = (ring.slot(i), ring.slot(ring.after(i))) {
+                    self.add_face((v, i), x, w, stop)?;
                 }
             }
         }
         Ok(())
     }
 
+    #[inline(never)]
+    fn add_faces_from_long(&mut self, v: Vertex, stop: &Stop) -> Result<(), Stopped> {
+        let ring = self.finder.ring(v);
+        let start = match self.first[v.index()] {
+            NONE => 0,
+            slot => slot as usize,
+        };
+        for i in (start..ring.len()).chain(0..start) {
+            let next = if i + 1 == ring.len() { 0 } else { i + 1 };
+            if let (Some(x), Some(w)) = (ring[i], ring[next])
+                && x > v
+                && w > v
+            {
+                self.add_face((v, i as u32), x, w, stop)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the orbit that leaves `v` by a slot for `x` and would come back from `w`, both younger, if it is a face and `v`
+    /// its oldest corner.
+    #[inline]
+    fn add_face(&mut self, (v, leaves_v): (Vertex, u32), x: Vertex, w: Vertex, stop: &Stop) -> Result<(), Stopped> {
+        if !self.members.contains(x) || !self.members.contains(w) {
+            return Ok(());
+        }
+        let (Some(at_x), Some(at_w)) = (self.finder.beside(v, x), self.finder.beside(v, w)) else { return Ok(()) };
+        // Gaps are less than every vertex. An older corner has this face already, if it is one.
+        if (at_x.previous < Some(v)) | (at_w.next < Some(v)) {
+            return Ok(());
+        }
+        if at_x.previous == Some(w) && at_w.next == Some(x) && x != w {
+            self.add(&[v, x, w], &[leaves_v, at_x.before, at_w.place]);
+            return Ok(());
+        }
+        if let Some(y) = at_x.previous
+            && at_w.next == Some(y)
+            && y != v
+            && y != w
+            && self.members.contains(y)
+            && let Some(at_y) = self.finder.beside(x, y)
+            && at_y.previous == Some(w)
+        {
+            self.add(&[v, x, y, w], &[leaves_v, at_x.before, at_y.before, at_w.place]);
+            return Ok(());
+        }
+        self.add_long_face((v, leaves_v), (x, at_x), (w, at_w), stop)
+    }
+
+    /// As [`Walker::add_face`], for an orbit of more corners.
+    #[inline(never)]
+    fn add_long_face(
+        &mut self,
+        (v, leaves_v): (Vertex, u32),
+        (x, at_x): (Vertex, Beside),
+        (w, at_w): (Vertex, Beside),
+        stop: &Stop,
+    ) -> Result<(), Stopped> {
+        self.path.clear();
+        self.path.extend([(v, leaves_v), (x, at_x.before)]);
+        let is_face = match self.walk_short((w, at_w), at_x.previous) {
+            Walk::Face => true,
+            Walk::NoFace => false,
+            Walk::Long => self.walk_long(v, leaves_v, stop)?,
+        };
+        if is_face {
+            let (corners, leaves): (Vec<_>, Vec<_>) = self.path.iter().copied().unzip();
+            self.add(&corners, &leaves);
+        }
+        Ok(())
+    }
+
     /// Walks on to `to` from the end of the path, which began at its oldest corner, until the corner `last`, from which
-    /// the walk goes back to the beginning by that slot.
-    fn walk_short(&mut self, last: (Vertex, u32), mut to: Option<Vertex>) -> Walk {
+    /// the walk goes back to the beginning.
+    fn walk_short(&mut self, last: (Vertex, Beside), mut to: Option<Vertex>) -> Walk {
         let (w, at_w) = last;
         let oldest = self.path[0].0;
         loop {
             let Some(&(u, _)) = self.path.last() else { return Walk::NoFace };
             let Some(c) = to else { return Walk::NoFace };
-            if c == w && after(self.finder.ring(w), at_w) == Some(u) {
-                self.path.push(last);
+            if c == w && at_w.next == Some(u) {
+                self.path.push((w, at_w.place));
                 return Walk::Face;
             }
             // An older corner has this face already, if it is one.
@@ -214,10 +256,9 @@ impl<'a> Walker<'a> {
             if c == oldest || self.path.len() >= SHORT {
                 return Walk::Long;
             }
-            let Some(place) = self.finder.find(u, c) else { return Walk::NoFace };
-            let (leaves, next) = before(self.finder.ring(c), place);
-            self.path.push((c, leaves));
-            to = next;
+            let Some(side) = self.finder.beside(u, c) else { return Walk::NoFace };
+            self.path.push((c, side.before));
+            to = side.previous;
         }
     }
 
@@ -243,20 +284,25 @@ impl<'a> Walker<'a> {
             if c < v || !self.members.contains(c) {
                 return Ok(false);
             }
-            let Some(place) = self.finder.find(u, c) else { return Ok(false) };
-            (u, slot) = (c, before(self.finder.ring(c), place).0);
+            let Some(side) = self.finder.beside(u, c) else { return Ok(false) };
+            (u, slot) = (c, side.before);
             if (u, slot) == (v, start) {
                 return Ok(true);
             }
         }
     }
 
-    fn add(&mut self, path: &[(Vertex, u32)]) {
-        self.faces.corners.extend(path.iter().map(|&(corner, _)| corner));
+    /// Adds a face, whose corners are left by these slots.
+    #[inline(always)]
+    fn add(&mut self, corners: &[Vertex], leaves: &[u32]) {
+        self.faces.corners.extend_from_slice(corners);
         self.faces.ends.push(self.faces.corners.len() as u32);
-        for &(corner, slot) in path {
+        for (corner, &slot) in corners.iter().zip(leaves) {
             let first = &mut self.first[corner.index()];
             *first = if *first == NONE { slot } else { *first };
+            if slot < u8::BITS {
+                self.found[corner.index()] |= 1 << slot;
+            }
         }
     }
 }
@@ -269,16 +315,4 @@ enum Walk {
     NoFace,
     /// It is long, or passes its oldest corner more than once.
     Long,
-}
-
-/// The slot before `i` in a ring, and what stands there.
-fn before(ring: &[Option<Vertex>], i: u32) -> (u32, Option<Vertex>) {
-    let before = if i == 0 { ring.len() as u32 - 1 } else { i - 1 };
-    (before, ring[before as usize])
-}
-
-/// What stands after slot `i` in a ring.
-fn after(ring: &[Option<Vertex>], i: u32) -> Option<Vertex> {
-    let after = i as usize + 1;
-    ring[if after == ring.len() { 0 } else { after }]
 }
