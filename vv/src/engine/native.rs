@@ -14,6 +14,7 @@
 
 mod context;
 mod effects;
+mod pristine;
 mod run;
 mod translate;
 
@@ -70,7 +71,7 @@ mutations! {
     ConditionalIsSwapped CreatesWithoutDefaults CrossIsNegated DifferenceIsSwapped DividesIntsByOne DotForgetsZ
     DoubleToIntRounds EditsMoveNothing EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IgnoresRoom IsInRingInverted
     IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
-    NotDoesNothing OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
+    NotDoesNothing OldIsAsItCame OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
     ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
 }
 

@@ -326,6 +326,47 @@ fn what_is_known_of_new_vertices_is_true() {
     }
 }
 
+/// Where old values are made: first thing in a run, where the mesh as it came will do, and elsewhere. `old` and `first` have
+/// sets of their own, so that they are compiled by themselves.
+const OLD: &[&str] = &[
+    "old(S); move(S); show(S);",
+    "mesh T = S; { int n = 2; old(T); } move(S); show(T);",
+    "move(S); old(S); move(S); show(S);",
+    "old(S); move(S); old(S); show(S);",
+    "if (count < 3) move(S); old(S); move(S); show(S);",
+    "for (int i = 0; i < 2; i++) { old(S); move(S); } show(S);",
+    "move(S); first(S); show(S);",
+    "moved(S); old(S); show(S);",
+    "around(S); move(S); show(S);",
+    "move(S); around(S); move(S); show(S);",
+    "mesh T = twisted(S); old(S); show(S);",
+    "synchronize S; move(S); show(S);",
+    "move(S); synchronize S; move(S); show(S);",
+];
+
+/// A program around one of them.
+fn with_old(body: &str) -> String {
+    format!(
+        "param int count = 2;\n{OCTAHEDRON}
+static void move(mesh& S) {{
+  forall v in S {{ v$pos.x += 1; make {{prevto any in v in v, any in v}} nb_of v; }}
+}}
+static void old(mesh& S) {{ mesh T = S; synchronize T; }}
+static void show(mesh& S) {{ forall v in S {{ print v, `v$pos, v$pos; forall q in `v print q; forall q in v print q; }} }}
+static void moved(mesh& S) {{ mesh T = S; move(T); }}
+static void around(mesh& S) {{ mesh T; old(S); merge S with T; }}
+static mesh twisted(mesh S) {{ move(S); return S; }}
+void first(mesh& S) {{ synchronize S; mesh T = S; move(T); }}
+void step(mesh& S) {{ {body} }}
+"
+    )
+}
+
+#[test]
+fn what_is_made_old_is_what_stood_there() {
+    OLD.iter().for_each(|body| check_to_the_end(&with_old(body)));
+}
+
 #[track_caller]
 fn compile_text(text: &str) -> Arc<Program> {
     let compilation = vv::compile("test.vv", text, &mut |_: &str, _: &str| Err(String::new()));
@@ -369,6 +410,7 @@ fn planted_mistakes_are_found() {
                 && compare_generated(&format!("{OCTAHEDRON}{RINGS}"), mutation).is_ok()
                 && compare_generated(&format!("{OCTAHEDRON}{APPENDED}"), mutation).is_ok()
                 && NEW.concat().iter().all(|body| compare_generated(&with_new(body), mutation).is_ok())
+                && OLD.iter().all(|body| compare_generated(&with_old(body), mutation).is_ok())
                 && (0..40).all(|seed| compare_generated(&generate(seed), mutation).is_ok())
         })
         .collect();

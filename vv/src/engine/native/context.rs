@@ -112,7 +112,7 @@ const GLOBAL_WORDS: usize = 3;
 pub(super) const MEMO_WORDS: usize = 3;
 
 /// How many calls a memo remembers, a power of two: operands choose which.
-pub(super) const MEMO_ENTRIES: usize = 16;
+pub(super) const MEMO_ENTRIES: usize = 64;
 
 impl Layout {
     pub(super) fn new(program: &Program) -> Self {

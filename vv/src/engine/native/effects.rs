@@ -1,5 +1,6 @@
 //! What functions and statements do, as far as it decides how they are compiled.
 
+use super::pristine;
 use crate::ir::{
     Argument, Expr, ExprKind, Function, FunctionId, Item, Local, LocalId, Passing, Place, PrintItem, Program, Ring,
     Stmt, StmtKind, Type,
@@ -68,6 +69,8 @@ pub(super) struct FunctionFacts {
     pub(super) inline_depth: u32,
     /// Can be reached from a rule, `start` or a global.
     pub(super) reached: bool,
+    /// Begins with the mesh as the run found it.
+    pub(super) pristine: bool,
     pub(super) keeping: Vec<Keeping>,
 }
 
@@ -97,9 +100,10 @@ impl Facts {
         }
         let order = callees_first(&own);
         let mut calls = vec![0_u32; n];
-        for &c in own.iter().flat_map(|o| &o.calls) {
+        for &c in own.iter().chain([&own_of_globals(program)]).flat_map(|o| &o.calls) {
             calls[c] += 1;
         }
+        let pristine = pristine::functions(program, &order, &calls);
         let mut inline = vec![false; n];
         let mut inline_depth = vec![0; n];
         let mut size: Vec<usize> = own.iter().map(|o| o.size).collect();
@@ -136,6 +140,7 @@ impl Facts {
                 inline: inline[i],
                 inline_depth: inline_depth[i],
                 reached: reached[i],
+                pristine: pristine[i],
                 keeping: keeping(&program.functions[i], &inline, effects[i]),
             })
             .collect();
@@ -225,11 +230,11 @@ fn own_of_globals(program: &Program) -> Own {
     own
 }
 
-struct Order {
+pub(super) struct Order {
     /// Functions after those they call, cycles cut.
-    sorted: Vec<usize>,
+    pub(super) sorted: Vec<usize>,
     /// Whether a function can come to be called from itself.
-    cyclic: Vec<bool>,
+    pub(super) cyclic: Vec<bool>,
 }
 
 fn callees_first(own: &[Own]) -> Order {

@@ -245,7 +245,7 @@ pub(super) struct Translator<'t, 'p> {
     /// How many lists.
     list_mark: Option<Value>,
     name: String,
-    /// Nothing has been written to the mesh: the first statement of a rule is being translated.
+    /// Nothing has been written to the mesh: the first statement of the run is being translated.
     pristine: bool,
 }
 
@@ -307,6 +307,7 @@ impl<'t, 'p> Translator<'t, 'p> {
         let function = self.program.function(id).ok_or_else(wrong_type)?;
         let facts = self.unit.facts.function(id).ok_or_else(wrong_type)?;
         let (inline_depth, keeping) = (facts.inline_depth, facts.keeping.clone());
+        self.pristine = facts.pristine;
         self.prologue(inline_depth);
         let own_sets =
             function.locals.iter().enumerate().any(|(i, l)| l.ty == Type::Mesh && i >= function.parameters.len());
@@ -362,7 +363,6 @@ impl<'t, 'p> Translator<'t, 'p> {
             };
             storage.push(place);
         }
-        self.pristine = self.program.rules.contains(&id) || self.program.start == Some(id);
         self.frames.push(Frame { function, storage, call: None, exit: None, result: Vec::new(), loops: Vec::new() });
         if self.block(&function.body)? {
             self.leave_function();

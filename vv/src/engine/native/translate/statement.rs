@@ -6,7 +6,7 @@ use cranelift_codegen::ir::{Block, InstBuilder, types};
 use super::{Loop, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context::{self, status};
-use crate::engine::native::effects::{Node, each_in};
+use crate::engine::native::pristine::{is_quiet, quiet_call};
 use crate::engine::native::{RED_ZONE, STACK_SEGMENT};
 use crate::ir::{Expr, ExprKind, LocalId, PrintItem, Stmt, StmtKind, Type};
 use crate::mesh;
@@ -36,7 +36,9 @@ impl<'p> Translator<'_, 'p> {
     }
 
     fn statement(&mut self, s: &'p Stmt) -> Translated<bool> {
-        self.pristine &= is_quiet(s) || matches!(s.kind, StmtKind::Block(_) | StmtKind::Synchronize(_));
+        self.pristine &= is_quiet(s)
+            || matches!(s.kind, StmtKind::Block(_) | StmtKind::Synchronize(_))
+            || quiet_call(s).is_some_and(|f| self.unit.facts.function(f).is_some_and(|f| f.pristine));
         match &s.kind {
             StmtKind::Declare { local, init } => self.declare(*local, init.as_ref())?,
             StmtKind::Expr(e) => {
@@ -75,7 +77,8 @@ impl<'p> Translator<'_, 'p> {
             StmtKind::Replace { item, with, ring } => self.replace(item, with, ring)?,
             StmtKind::Splice { item, side, anchor, ring } => self.splice(item, *side, anchor, ring)?,
             StmtKind::Synchronize(set) => {
-                let pristine = std::mem::take(&mut self.pristine) && matches!(set.kind, ExprKind::Local(_));
+                let mut pristine = std::mem::take(&mut self.pristine) && matches!(set.kind, ExprKind::Local(_));
+                pristine |= self.mutated(Mutation::OldIsAsItCame);
                 let (set, mark) = self.set(set)?;
                 let pristine = self.int32(u32::from(pristine));
                 self.call_or_fail(Symbol::Synchronize, &[set, pristine]);
@@ -262,25 +265,5 @@ impl<'p> Translator<'_, 'p> {
     /// Whether a variable is declared as one whose address is known.
     pub(super) fn address_of(&self, local: LocalId) -> Translated<Storage> {
         self.storage(local)
-    }
-}
-
-/// Whether a statement is sure to leave the mesh as it is and to run once: a declaration that only computes.
-fn is_quiet(s: &Stmt) -> bool {
-    match &s.kind {
-        StmtKind::Block(body) => body.iter().all(is_quiet),
-        StmtKind::Declare { init, .. } => {
-            let mut quiet = true;
-            if let Some(e) = init {
-                each_in(e, &mut |node| {
-                    if let Node::Expr(e) = node {
-                        use ExprKind::{Assign, Call, Create, Step};
-                        quiet &= !matches!(e.kind, Call(..) | Create | Assign { .. } | Step(..));
-                    }
-                });
-            }
-            quiet
-        }
-        _ => false,
     }
 }
