@@ -1,11 +1,15 @@
 //! The masks that [`vv::masks`] finds, against the closed forms that were published, for all valences from 3 to 12.
 
 use std::f64::consts::TAU;
+use std::iter::once;
+use std::ops::{Add, Mul, Sub};
 use std::path::Path;
 
 use vv::engine::{Engine, Machine, Settings};
-use vv::masks::{Around, Class, Fault, Star, classes, measure, measure_vertex, same_classes};
+use vv::masks::{Around, Class, Fault, Star, classes, fraction, measure, measure_vertex, same_classes};
+use vv::mesh::build::{Polygons, build};
 use vv::mesh::{Mesh, Vertex};
+use vv::stop::Stop;
 
 fn machine(text: &str) -> Machine {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/programs");
@@ -24,8 +28,79 @@ fn found(machine: &Machine, star: &Star) -> (Vec<Class>, Vec<Fault>) {
     (classes(star, &masks), masks.faults)
 }
 
+/// A weight, and the fraction that it is, if it is one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Weight {
+    value: f64,
+    fraction: Option<(i64, i64)>,
+}
+
+/// A fraction.
+fn of(numerator: i64, denominator: usize) -> Weight {
+    let (denominator, mut a, mut b) = (denominator as i64, numerator.abs(), denominator as i64);
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    let fraction = Some((numerator / a.max(1), denominator / a.max(1)));
+    Weight { value: numerator as f64 / denominator as f64, fraction }
+}
+
+/// The cosine of j/n of a whole turn: a fraction in all cases in which it is one (Niven).
+fn cos(j: usize, n: usize) -> Weight {
+    let value = (j as f64 * TAU / n as f64).cos();
+    if !(12 * j).is_multiple_of(n) {
+        return Weight { value, fraction: None };
+    }
+    match 12 * j / n % 12 {
+        0 => of(1, 1),
+        2 | 10 => of(1, 2),
+        3 | 9 => of(0, 1),
+        4 | 8 => of(-1, 2),
+        6 => of(-1, 1),
+        _ => Weight { value, fraction: None },
+    }
+}
+
+impl Weight {
+    fn with(self, other: Self, value: f64, exact: impl Fn((i64, i64), (i64, i64)) -> (i64, i64)) -> Self {
+        let fraction = self.fraction.zip(other.fraction).map(|(a, b)| exact(a, b));
+        match fraction {
+            Some((numerator, denominator)) => Self { value, ..of(numerator, denominator as usize) },
+            None => Self { value, fraction: None },
+        }
+    }
+
+    /// As it is printed, if it is a fraction.
+    fn text(self) -> Option<String> {
+        let (numerator, denominator) = self.fraction?;
+        Some(if denominator == 1 { numerator.to_string() } else { format!("{numerator}/{denominator}") })
+    }
+}
+
+impl Add for Weight {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.with(other, self.value + other.value, |(a, b), (c, d)| (a * d + c * b, b * d))
+    }
+}
+
+impl Mul for Weight {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        self.with(other, self.value * other.value, |(a, b), (c, d)| (a * c, b * d))
+    }
+}
+
+impl Sub for Weight {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + of(-1, 1) * other
+    }
+}
+
 /// Masks as weights by name.
-type Expected = Vec<Vec<(String, f64)>>;
+type Mask = Vec<(String, Weight)>;
+type Expected = Vec<Mask>;
 
 #[track_caller]
 fn check(program: &str, around: Around, expected: impl Fn(usize) -> Expected) {
@@ -39,12 +114,13 @@ fn check(program: &str, around: Around, expected: impl Fn(usize) -> Expected) {
         assert_eq!(classes.len(), expected.len(), "{program}, valence {n}: {classes:#?}");
         for expected in &expected {
             // A class shows one of its turns; the expected one is meant up to a turn.
-            let turned: Vec<Vec<(String, f64)>> = (0..n).map(|by| turn(expected, by, n)).collect();
+            let turned: Vec<Mask> = (0..n).map(|by| turn(expected, by, n)).collect();
             let fits = |class: &&Class| {
                 turned.iter().any(|expected| {
                     class.mask.len() == expected.len()
                         && expected.iter().all(|(name, weight)| {
-                            class.mask.iter().any(|(v, w)| star.name(*v) == *name && (w - weight).abs() <= 1e-12)
+                            let is = |w: f64| (w - weight.value).abs() <= 1e-12 && fraction(w) == weight.text();
+                            class.mask.iter().any(|(v, w)| star.name(*v) == *name && is(*w))
                         })
                 })
             };
@@ -60,7 +136,7 @@ fn check(program: &str, around: Around, expected: impl Fn(usize) -> Expected) {
 }
 
 /// `q2+q3` turned by one is `q3+q4`.
-fn turn(mask: &[(String, f64)], by: usize, n: usize) -> Vec<(String, f64)> {
+fn turn(mask: &[(String, Weight)], by: usize, n: usize) -> Mask {
     let name = |name: &String| {
         let along = |part: &str| match part.split_once('q') {
             Some((times, ray)) => format!("{times}q{}", (ray.parse::<usize>().unwrap() - 1 + by) % n + 1),
@@ -84,7 +160,7 @@ fn p() -> String {
     "p".to_owned()
 }
 
-fn all(n: usize, name: impl Fn(usize, usize) -> String, weight: f64) -> impl Iterator<Item = (String, f64)> {
+fn all(n: usize, name: impl Fn(usize, usize) -> String, weight: Weight) -> impl Iterator<Item = (String, Weight)> {
     (1..=n).map(move |i| (name(i, n), weight))
 }
 
@@ -92,9 +168,10 @@ fn all(n: usize, name: impl Fn(usize, usize) -> String, weight: f64) -> impl Ite
 fn loop_() {
     // Loop 1987: β = (5/8 − (3/8 + cos(τ/n)/4)²) / n
     check("loop.vv", Around::Triangles, |n| {
-        let beta = (5.0 / 8.0 - (3.0 / 8.0 + (TAU / n as f64).cos() / 4.0).powi(2)) / n as f64;
-        let vertex = std::iter::once((p(), 1.0 - n as f64 * beta)).chain(all(n, q, beta)).collect();
-        let edge = vec![(p(), 0.375), (q(1, n), 0.375), (q(2, n), 0.125), (q(n, n), 0.125)];
+        let root = of(3, 8) + of(1, 4) * cos(1, n);
+        let beta = of(1, n) * (of(5, 8) - root * root);
+        let vertex = once((p(), of(1, 1) - of(n as i64, 1) * beta)).chain(all(n, q, beta)).collect();
+        let edge = vec![(p(), of(3, 8)), (q(1, n), of(3, 8)), (q(2, n), of(1, 8)), (q(n, n), of(1, 8))];
         vec![vertex, edge]
     });
 }
@@ -103,9 +180,9 @@ fn loop_() {
 fn sqrt3() {
     // Kobbelt 2000: α = (4 − 2 cos(τ/n)) / 9
     check("sqrt3.vv", Around::Triangles, |n| {
-        let alpha = (4.0 - 2.0 * (TAU / n as f64).cos()) / 9.0;
-        let vertex = std::iter::once((p(), 1.0 - alpha)).chain(all(n, q, alpha / n as f64)).collect();
-        vec![vertex, vec![(p(), 1.0 / 3.0), (q(1, n), 1.0 / 3.0), (q(2, n), 1.0 / 3.0)]]
+        let alpha = of(1, 9) * (of(4, 1) - of(2, 1) * cos(1, n));
+        let vertex = once((p(), of(1, 1) - alpha)).chain(all(n, q, of(1, n) * alpha)).collect();
+        vec![vertex, vec![(p(), of(1, 3)), (q(1, n), of(1, 3)), (q(2, n), of(1, 3))]]
     });
 }
 
@@ -114,25 +191,22 @@ fn butterfly() {
     // Zorin, Schröder and Sweldens 1996
     check("butterfly.vv", Around::Triangles, |n| {
         let edge = if n == 6 {
-            let (a, b, w) = ([(p(), 0.5), (q(1, n), 0.5)], [(q(2, n), 0.125), (q(6, n), 0.125)], -1.0 / 16.0);
-            let far = [q(3, n), q(5, n), c(1, n), c(6, n)].map(|name| (name, w));
-            a.into_iter().chain(b).chain(far).collect()
+            let near = [(p(), of(1, 2)), (q(1, n), of(1, 2)), (q(2, n), of(1, 8)), (q(6, n), of(1, 8))];
+            let far = [q(3, n), q(5, n), c(1, n), c(6, n)].map(|name| (name, of(-1, 16)));
+            near.into_iter().chain(far).collect()
         } else {
-            let weight = |j: usize| {
-                let turn = |k: f64| (k * j as f64 * TAU / n as f64).cos();
-                match (n, j) {
-                    (3, 0) => 5.0 / 12.0,
-                    (3, _) => -1.0 / 12.0,
-                    (4, 0) => 3.0 / 8.0,
-                    (4, 2) => -1.0 / 8.0,
-                    (4, _) => 0.0,
-                    _ => (0.25 + turn(1.0) + turn(2.0) / 2.0) / n as f64,
-                }
+            let weight = |j: usize| match (n, j) {
+                (3, 0) => of(5, 12),
+                (3, _) => of(-1, 12),
+                (4, 0) => of(3, 8),
+                (4, 2) => of(-1, 8),
+                (4, _) => of(0, 1),
+                _ => of(1, n) * (of(1, 4) + cos(j, n) + of(1, 2) * cos(2 * j, n)),
             };
-            let around = (0..n).map(|j| (q(j + 1, n), weight(j))).filter(|(_, w)| w.abs() > 1e-12);
-            std::iter::once((p(), 0.75)).chain(around).collect()
+            let around = (0..n).map(|j| (q(j + 1, n), weight(j))).filter(|(_, w)| w.value.abs() > 1e-12);
+            once((p(), of(3, 4))).chain(around).collect()
         };
-        vec![vec![(p(), 1.0)], edge]
+        vec![vec![(p(), of(1, 1))], edge]
     });
 }
 
@@ -140,14 +214,13 @@ fn butterfly() {
 fn catmull_clark() {
     // Catmull and Clark 1978
     check("catmull-clark.vv", Around::Quads, |n| {
-        let m = n as f64;
-        let vertex = std::iter::once((p(), 1.0 - 7.0 / (4.0 * m)))
-            .chain(all(n, q, 3.0 / (2.0 * m * m)))
-            .chain(all(n, c, 1.0 / (4.0 * m * m)))
+        let vertex = once((p(), of(1, 1) - of(7, 4 * n)))
+            .chain(all(n, q, of(3, 2 * n * n)))
+            .chain(all(n, c, of(1, 4 * n * n)))
             .collect();
-        let sides = [q(2, n), q(n, n), c(1, n), c(n, n)].map(|name| (name, 1.0 / 16.0));
-        let edge = [(p(), 0.375), (q(1, n), 0.375)].into_iter().chain(sides).collect();
-        let face = [p(), q(1, n), q(2, n), c(1, n)].map(|name| (name, 0.25)).into();
+        let sides = [q(2, n), q(n, n), c(1, n), c(n, n)].map(|name| (name, of(1, 16)));
+        let edge = [(p(), of(3, 8)), (q(1, n), of(3, 8))].into_iter().chain(sides).collect();
+        let face = [p(), q(1, n), q(2, n), c(1, n)].map(|name| (name, of(1, 4))).into();
         vec![vertex, edge, face]
     });
 }
@@ -156,8 +229,53 @@ fn catmull_clark() {
 fn doo_sabin() {
     // Doo and Sabin 1978: in a quad 9/16, 3/16, 3/16, 1/16, whatever the valence
     check("doo-sabin.vv", Around::Quads, |n| {
-        vec![vec![(p(), 9.0 / 16.0), (q(1, n), 3.0 / 16.0), (q(2, n), 3.0 / 16.0), (c(1, n), 1.0 / 16.0)]]
+        vec![vec![(p(), of(9, 16)), (q(1, n), of(3, 16)), (q(2, n), of(3, 16)), (c(1, n), of(1, 16))]]
     });
+}
+
+#[test]
+fn doo_sabin_in_faces_of_any_size() {
+    // 1/4 + 5/(4n) at the corner itself, (3 + 2 cos(jτ/n)) / (4n) at the j-th one from it
+    let machine = machine(&shipped("programs", "doo-sabin.vv"));
+    let rule = machine.program().default_rule().unwrap();
+    for n in 3..=12 {
+        let prism = prism(n);
+        let masks = measure(&machine, rule, &prism, &Settings::default()).unwrap();
+        assert_eq!(masks.faults, [], "{n} corners");
+        // Of the vertices made in the upper face; a prism on a square is made of squares alone.
+        let of_top = |mask: &&Vec<(Vertex, f64)>| mask.len() == n && mask.iter().all(|(v, _)| v.index() < n);
+        let found: Vec<_> = masks.weights.iter().filter(of_top).collect();
+        assert_eq!(found.len(), n, "{n} corners");
+        for mask in found {
+            let own = mask.iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0.index();
+            for &(v, w) in mask {
+                let expected = match (v.index() + n - own) % n {
+                    0 => of(1, 4) + of(5, 4 * n),
+                    j => of(1, 4 * n) * (of(3, 1) + of(2, 1) * cos(j, n)),
+                };
+                assert!((w - expected.value).abs() <= 1e-12, "{n} corners: {w}, not {expected:?}");
+                assert_eq!(fraction(w), expected.text(), "{n} corners: {w}");
+            }
+        }
+    }
+}
+
+/// Its upper face first.
+fn prism(n: usize) -> Mesh {
+    let corner = |i: usize, z: f64| {
+        let angle = i as f64 * TAU / n as f64;
+        glam::dvec3(angle.cos(), angle.sin(), z)
+    };
+    let points = (0..n).map(|i| corner(i, 1.0)).chain((0..n).map(|i| corner(i, 0.0))).collect();
+    let mut polygons = Polygons::new(points);
+    let (top, number) = (n as u32, |i: usize| (i % n) as u32);
+    polygons.push((0..n).map(number), None).unwrap();
+    polygons.push((0..n).rev().map(|i| top + number(i)), None).unwrap();
+    for i in 0..n {
+        let side = [number(i), top + number(i), top + number(i + 1), number(i + 1)];
+        polygons.push(side, None).unwrap();
+    }
+    build(polygons, true, &Stop::new()).unwrap().0
 }
 
 #[test]
