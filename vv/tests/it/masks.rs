@@ -77,24 +77,32 @@ impl Weight {
     }
 }
 
+fn sum((a, b): (i64, i64), (c, d): (i64, i64)) -> (i64, i64) {
+    (a * d + c * b, b * d)
+}
+
+fn product((a, b): (i64, i64), (c, d): (i64, i64)) -> (i64, i64) {
+    (a * c, b * d)
+}
+
 impl Add for Weight {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        self.with(other, self.value + other.value, |(a, b), (c, d)| (a * d + c * b, b * d))
+        self.with(other, self.value + other.value, sum)
     }
 }
 
 impl Mul for Weight {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        self.with(other, self.value * other.value, |(a, b), (c, d)| (a * c, b * d))
+        self.with(other, self.value * other.value, product)
     }
 }
 
 impl Sub for Weight {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        self + of(-1, 1) * other
+        self.with(other, self.value - other.value, |a, (c, d)| sum(a, (-c, d)))
     }
 }
 
