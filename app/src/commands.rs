@@ -16,6 +16,7 @@ mod output;
 mod paper;
 mod picture;
 mod reference;
+mod render;
 mod report;
 mod run;
 mod shell;
@@ -50,6 +51,7 @@ Examples:
   vv run loop.vv -i bunny.obj -n 2 -o out.obj -o out.png
   vv run loop.vv -i bunny.obj -n 2 -o side.png --view right
   vv watch loop.vv -i bunny.obj -n 2 -o out.png
+  vv render bunny.obj -o bunny.pdf
   vv check *.vv
   vv fmt --check *.vv
   vv mesh info bunny.obj
@@ -98,6 +100,11 @@ enum Command {
     /// being made then is stopped. Ends when it is interrupted, with Ctrl+C.
     #[command(after_help = format!("{WATCH_EXAMPLES}{EXIT_CODES}"))]
     Watch(Box<run::Arguments>),
+    /// Draw meshes, as pictures, figures or turntables, without window.
+    ///
+    /// As `vv run` draws what it has made. Several meshes stand side by side in one picture, unless its name has a place
+    /// for theirs.
+    Render(render::Arguments),
     /// Check programs for errors without running them.
     ///
     /// Finds what `vv run` would find before it runs them. Says nothing about programs without fault.
@@ -214,6 +221,7 @@ fn carry_out(cli: Cli, began: Instant) -> Result<(), Exit> {
         None => open::open(&cli.files, cli.view.as_deref()),
         Some(Command::Run(arguments)) => run::run(&arguments, began),
         Some(Command::Watch(arguments)) => watch::watch(&arguments),
+        Some(Command::Render(arguments)) => render::render(arguments, began),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Fmt(arguments)) => fmt::fmt(&arguments),
         Some(Command::Mask(arguments)) => mask::mask(&arguments),

@@ -25,7 +25,15 @@ const MOST_QUOTED: u64 = 64 << 20;
 pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Diagnostic>), Exit> {
     not_a_mesh(path, reporter)?;
     let text = files::read_program(path).map_err(|error| file_failed(&error, reporter))?;
-    let (compilation, _) = files::compile(path, &text);
+    compiled(path, &text, reporter)
+}
+
+/// As [`program`], of a text.
+///
+/// # Errors
+/// [`Exit::Program`] if it has errors.
+pub fn compiled(path: &Path, text: &str, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Diagnostic>), Exit> {
+    let (compilation, _) = files::compile(path, text);
     reporter.report(&compilation.diagnostics, &compilation.sources);
     let failed = compilation.diagnostics.iter().any(|d| d.severity == Severity::Error);
     let program = compilation.program.filter(|_| !failed).ok_or(Exit::Program)?;

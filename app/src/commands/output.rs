@@ -184,6 +184,11 @@ impl Target {
         Self { path, ..*self }
     }
 
+    /// Whether it is a mesh.
+    pub fn is_mesh(&self) -> bool {
+        matches!(self.kind, Kind::Mesh(_))
+    }
+
     /// Whether it is a picture in pixels.
     pub fn is_picture(&self) -> bool {
         self.kind == Kind::Picture

@@ -111,7 +111,13 @@ pub struct Arguments {
     tolerance: Option<f64>,
     #[command(flatten)]
     reporting: Reporting,
+    /// Whether nothing is done, and there is no program.
+    #[arg(skip)]
+    still: bool,
 }
+
+/// What is run where there is no program.
+const STILL: &str = "void still(mesh& S) { }\n";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum SummaryFormat {
@@ -147,6 +153,37 @@ pub struct Way {
 }
 
 impl Arguments {
+    /// To do nothing to meshes, and write what comes of that.
+    pub fn still(
+        input: Vec<PathBuf>,
+        turntable: Option<u32>,
+        output: OutputArguments,
+        look: LookArguments,
+        importing: Importing,
+        reporting: Reporting,
+    ) -> Self {
+        Self {
+            program: PathBuf::from("still.vv"),
+            others: Vec::new(),
+            input,
+            steps: Some(0),
+            rule: None,
+            generations: None,
+            turntable,
+            definitions: Vec::new(),
+            output,
+            look,
+            importing,
+            seed: 0,
+            engine: EngineChoice::Interpret,
+            summary: None,
+            reference: None,
+            tolerance: None,
+            reporting,
+            still: true,
+        }
+    }
+
     /// The files that are read, there or not.
     pub fn read(&self) -> Vec<PathBuf> {
         let looked_at = match files::is_standard_stream(&self.program) {
@@ -204,7 +241,10 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
     reporter.begin();
 
     let compiling = Instant::now();
-    let (program, found) = input::program(&arguments.program, reporter)?;
+    let (program, found) = match arguments.still {
+        true => input::compiled(&arguments.program, STILL, reporter)?,
+        false => input::program(&arguments.program, reporter)?,
+    };
     let engine = match arguments.engine {
         EngineChoice::Interpret => Engine::Interpret,
         EngineChoice::Native => Engine::Native,

@@ -341,7 +341,9 @@ impl Plan {
         let of_case = |case| self.shown().flat_map(move |generation| self.targets(case, generation));
         if let Some(still) = self.cases.all.iter().flat_map(of_case).find(Target::is_film) {
             let diagnostic = error(format!("`-o {}`: nothing moves here", still.path().display()));
-            return Err(Box::new(diagnostic.hint("go around the mesh, `--turntable 36`, or show `--generations 0-3`")));
+            return Err(Box::new(
+                diagnostic.hint("go around the mesh, `--turntable 36`, or let `vv run` show `--generations 0-3`"),
+            ));
         }
         let mut taken: BTreeMap<PathBuf, ()> = BTreeMap::new();
         for target in self.all_targets() {

@@ -4,7 +4,7 @@
 use super::*;
 
 /// All that goes to stdout, and what it needs from stdin.
-const TO_STDOUT: [(&str, &str); 24] = [
+const TO_STDOUT: [(&str, &str); 26] = [
     ("run triangle.vv", ""),
     ("run triangle.vv --summary json", ""),
     ("run triangle.vv --generations 0 --summary json", ""),
@@ -26,13 +26,15 @@ const TO_STDOUT: [(&str, &str); 24] = [
     ("mask move.vv", ""),
     ("mask move.vv --json", ""),
     ("fmt -", "void  step(mesh& S) { }\n"),
+    ("render square.off -o - --format png --size 8x8", ""),
+    ("render square.off -o - --format svg", ""),
     ("completions bash", ""),
     ("run --help", ""),
     ("--version", ""),
 ];
 
 /// All that is written into files; `PLACE/` is where.
-const TO_FILES: [&str; 23] = [
+const TO_FILES: [&str; 28] = [
     "run triangle.vv -o PLACE/new.obj",
     "run triangle.vv -o PLACE/new.off",
     "run triangle.vv -o PLACE/new.ply",
@@ -55,8 +57,19 @@ const TO_FILES: [&str; 23] = [
     "run move.vv -i octahedron.obj -D far=1,2 -o PLACE/new_{far}.obj",
     "mesh convert octahedron.obj -o PLACE/new.off",
     "mesh convert octahedron.obj -o PLACE/new.pdf",
+    "render octahedron.obj square.off -o PLACE/new.png --size 240x90",
+    "render octahedron.obj --turntable 2 -o PLACE/new.gif --size 8x8",
+    "render octahedron.obj -o PLACE/new.svg",
+    "mask thirds.vv --valence 4 -o PLACE/new.svg",
+    "mask thirds.vv --valence 4 -o PLACE/new.pdf",
     "man PLACE",
 ];
+
+const THIRDS: (&str, &str) = (
+    "thirds.vv",
+    "void step(mesh& S) { synchronize S; forall v in S {\n  vec sum = vec(0, 0, 0); forall q in v sum += `q$pos;\n  \
+     v$pos = `v$pos * 2 / 3 + sum / (3.0 * valence v); } }\n",
+);
 
 /// How a command ends whose stdout is this.
 fn ends(folder: &Folder, arguments: &str, stdin: &str, stdout: Option<fs::File>) -> (Option<i32>, String) {
@@ -76,7 +89,7 @@ fn a_closed_pipe_ends_every_output_quietly() {
     let before = folder.names();
     for (arguments, stdin) in TO_STDOUT {
         // A file beside it is not written either.
-        let beside = if arguments.contains("-o -") { " -o beside.obj" } else { "" };
+        let beside = if arguments.contains("-o -") { " -o beside.svg" } else { "" };
         let (code, said) = ends(&folder, &format!("{arguments}{beside}"), stdin, None);
         assert_eq!((code, without_warnings(&said).as_str()), (Some(3), ""), "{arguments}");
         assert_eq!(folder.names(), before, "{arguments}");
@@ -89,7 +102,7 @@ fn a_full_disk_behind_stdout_is_told_by_every_output() {
     let folder = Folder::with(&[]);
     let before = folder.names();
     for (arguments, stdin) in TO_STDOUT {
-        let beside = if arguments.contains("-o -") { " -o beside.obj" } else { "" };
+        let beside = if arguments.contains("-o -") { " -o beside.svg" } else { "" };
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
         let (code, said) = ends(&folder, &format!("{arguments}{beside}"), stdin, Some(full));
         let said = without_warnings(&said);
@@ -107,7 +120,7 @@ fn without_warnings(said: &str) -> String {
 
 #[test]
 fn a_missing_folder_is_told_by_every_output() {
-    let folder = Folder::with(&[]);
+    let folder = Folder::with(&[THIRDS]);
     for arguments in TO_FILES {
         folder.check(&arguments.replace("PLACE", "none"), 3, "there is no directory `none`");
     }
@@ -117,7 +130,7 @@ fn a_missing_folder_is_told_by_every_output() {
 #[cfg(unix)]
 #[test]
 fn a_file_that_cannot_grow_leaves_nothing_and_takes_nothing_away() {
-    let folder = Folder::with(&[("loose.vv", "void  step(mesh& S) { }\n")]);
+    let folder = Folder::with(&[THIRDS, ("loose.vv", "void  step(mesh& S) { }\n")]);
     let place = tempfile::tempdir_in(folder.0.path()).unwrap();
     fs::write(place.path().join("old.obj"), "old").unwrap();
     let name = place.path().file_name().unwrap().to_str().unwrap();

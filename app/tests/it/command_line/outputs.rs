@@ -66,6 +66,28 @@ fn stdout_holds_nothing_but_the_output() {
 }
 
 #[test]
+fn every_format_goes_through_a_pipe_and_back() {
+    let folder = Folder::with(&[]);
+    let pipe = |arguments: &str, input: &[u8]| {
+        let mut command = folder.command(arguments);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(input).unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{arguments}");
+        output.stdout
+    };
+    for format in ["obj", "off", "ply", "ply-text", "stl", "glb", "gltf"] {
+        let moved = pipe(&format!("run move.vv -i - -n 0 -o - --format {format}"), OCTAHEDRON.as_bytes());
+        let back = pipe("run move.vv -i - -n 0 -o - --format obj", &moved);
+        let back = String::from_utf8(back).unwrap();
+        let (mut found, mut expected) = (vertices(&back), vertices(OCTAHEDRON));
+        found.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(found, expected, "{format}");
+    }
+}
+
+#[test]
 fn a_failed_step_writes_nothing_and_leaves_what_was_there() {
     let folder = Folder::with(&[("old.obj", "old")]);
     let ended = folder.check("run failing.vv -i octahedron.obj -o new.obj -o old.obj", 1, "failing.vv:5:");

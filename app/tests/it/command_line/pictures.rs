@@ -183,3 +183,22 @@ fn a_background_is_of_the_colour_asked_for_also_between_the_pictures_of_a_sheet(
     assert_eq!(corner_and_middle(&folder.path("b.png"))[0], [0; 4]);
     check("mesh convert octahedron.obj -o a.png --background blue", 2, "`blue` is no colour");
 }
+
+#[test]
+fn meshes_are_drawn_without_program_side_by_side_or_each_on_its_own() {
+    let folder = Folder::with(&[]);
+    folder.check("render octahedron.obj -o a.png -o a.svg --size 60x45 --color-by x", 0, "");
+    folder.check("mesh convert octahedron.obj -o b.png --size 60x45 --color-by x", 0, "");
+    assert_eq!(fs::read(folder.path("a.png")).unwrap(), fs::read(folder.path("b.png")).unwrap());
+    folder.check("render octahedron.obj square.off -o {name}.png -o both.png -o both.pdf --size 240x90", 0, "");
+    assert_eq!(size(&folder.path("both.png")), size(&folder.path("square.png")));
+    assert_ne!(fs::read(folder.path("both.png")).unwrap(), fs::read(folder.path("square.png")).unwrap());
+    folder.check("render octahedron.obj --turntable 3 -o t_{frame}.png -o t.gif --size 30x30", 0, "");
+    assert!(folder.names().contains(&"t_2.png".to_owned()));
+    let ended = folder.run_with_stdin("render - -o stdin.svg", OCTAHEDRON);
+    assert_eq!((ended.code, folder.path("stdin.svg").is_file()), (Some(0), true));
+    folder.check("render octahedron.obj", 2, "nothing says where to draw");
+    folder.check("render octahedron.obj -o c.obj", 2, "`-o c.obj` is a mesh and no picture\n`vv mesh convert`");
+    folder.check("render none.obj -o c.png", 3, "none.obj: there is no such file");
+    folder.check("render -o c.png", 2, "MESH");
+}
