@@ -3,7 +3,7 @@
 //! ```text
 //!   Scene + Mesh ─ space ─► surface     triangles and classified edges in the space of the picture
 //!                             ├─ hidden   which parts of edges are seen
-//!                             ├─ order    faces from back to front
+//!                             ├─ covered, order    faces that are seen, from back to front
 //!                             └─ notes    labels and rings, set in letters
 //!                                  └─ page ─ chain ─► svg, eps, pdf, raster
 //! ```
@@ -13,7 +13,9 @@
 //! that the window shows too; and where two faces pierce each other, no line is drawn along their intersection.
 
 mod boxes;
+mod build;
 mod chain;
+mod covered;
 mod eps;
 mod fill;
 mod hidden;
@@ -178,6 +180,8 @@ pub struct Settings {
     pub lines: [Option<Line>; Class::ALL.len()],
     /// Height of letters, in points.
     pub letters: f64,
+    /// How much lighter lines are that lie farthest away, from 0, not at all, to 1, white.
+    pub fade: f64,
 }
 
 impl Default for Settings {
@@ -187,7 +191,7 @@ impl Default for Settings {
             Class::Hidden => None,
             _ => Some(Self::line(class)),
         };
-        Self { page: Page { width: 120.0, height: Some(160.0) }, lines: Class::ALL.map(line), letters: 7.0 }
+        Self { page: Page { width: 120.0, height: Some(160.0) }, lines: Class::ALL.map(line), letters: 7.0, fade: 0.0 }
     }
 }
 

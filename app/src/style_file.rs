@@ -32,6 +32,8 @@ pub struct StyleFile {
     pub page: Option<String>,
     /// Height of letters in figures, in points.
     pub font_size: Option<f64>,
+    /// How much lighter lines of figures are that lie farthest away, as `--fade` takes it.
+    pub fade: Option<f64>,
     /// How lines of figures look, as `--line` takes it, by their classes.
     pub lines: BTreeMap<String, String>,
 }

@@ -59,6 +59,10 @@ pub struct LookArguments {
     /// does not. May be repeated.
     #[arg(long, value_name = "CLASS[=LOOK]", value_parser = paper::line)]
     line: Vec<(Class, Option<Line>)>,
+    /// Make lines of figures lighter the farther away they are, up to this much: from 0 to 1, which is white. Default,
+    /// without a number: 0.75.
+    #[arg(long, value_name = "AMOUNT", num_args = 0..=1, require_equals = true, default_missing_value = "0.75", value_parser = paper::fade)]
+    fade: Option<f64>,
     /// Height of letters in figures, in points. Default: 7.
     #[arg(long, value_name = "POINTS", value_parser = paper::letters)]
     font_size: Option<f64>,
@@ -115,6 +119,7 @@ impl LookArguments {
         look.style.cut = self.cut.unwrap_or(look.style.cut);
         look.figure.page = self.page.unwrap_or(look.figure.page);
         look.has_page |= self.page.is_some();
+        look.figure.fade = self.fade.unwrap_or(look.figure.fade);
         look.figure.letters = self.font_size.unwrap_or(look.figure.letters);
         for &(class, line) in &self.line {
             look.figure.lines[class as usize] = line;

@@ -1,4 +1,4 @@
-//! `--page`, `--line` and `--font-size`: what figures are like.
+//! `--page`, `--line`, `--fade` and `--font-size`: what figures are like.
 
 use app::figure::{Class, Dash, Line, Page, Settings};
 
@@ -17,6 +17,12 @@ pub fn page(text: &str) -> Result<Page, String> {
         None => (text, None),
     };
     Ok(Page { width: length(width).ok_or_else(wrong)?, height })
+}
+
+/// Reads how much lighter lines far away are.
+pub fn fade(text: &str) -> Result<f64, String> {
+    let amount = text.parse().ok().filter(|x| (0.0..=1.0).contains(x));
+    amount.ok_or_else(|| "lines fade by a number from 0 to 1".to_owned())
 }
 
 /// Reads a height of letters in points.

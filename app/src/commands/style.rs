@@ -68,6 +68,9 @@ fn read(path: &Path) -> Result<Look, FileError> {
         let letters = paper::letters(&points.to_string());
         look.figure.letters = letters.map_err(|message| wrong(&["font_size"], message))?;
     }
+    if let Some(amount) = file.fade {
+        look.figure.fade = paper::fade(&amount.to_string()).map_err(|message| wrong(&["fade"], message))?;
+    }
     for (class, line) in &file.lines {
         let parsed = paper::line(&format!("{class}={line}")).map_err(|message| wrong(&["lines", class], message))?;
         look.figure.lines[parsed.0 as usize] = parsed.1;

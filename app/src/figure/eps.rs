@@ -87,7 +87,7 @@ fn write_layer(text: &mut String, layer: &Layer, letters: &[(Glyph, i32)]) -> st
                 writeln!(text, "{}{} f", path(corners), thousandths(*color))?;
             }
         }
-        Layer::Lines { name, line, paths } => {
+        Layer::Lines { name, line, paths, .. } => {
             let width = hundredths((line.width * 100.0).round() as i32);
             writeln!(text, "% {name}\n{width} setlinewidth {} setrgbcolor", thousandths(line.color))?;
             match line.dash {

@@ -6,10 +6,11 @@ use vv::mesh::triangulate::newell;
 use vv::stop::{Stop, Stopped};
 
 use super::Subject;
+use super::covered::covered;
 use super::light::{lit, own_color};
 use super::order::{Order, Painted, order};
 use super::space::{NONE, Space};
-use super::surface::Surface;
+use super::surface::{Surface, Triangle};
 use crate::scene::Style;
 
 /// An area and its colour.
@@ -27,7 +28,7 @@ struct Paint {
     front: Option<bool>,
 }
 
-/// The areas, and whether some are ordered by distance only.
+/// The areas, without those that others cover wholly, and whether some are ordered by distance only.
 pub(super) fn fill(
     subject: Subject<'_>,
     surface: &Surface,
@@ -59,7 +60,10 @@ pub(super) fn fill(
         paints[face as usize].broken |= count != 1;
     }
     let broken: Vec<bool> = paints.iter().map(|paint| paint.broken).collect();
-    let Order { painted, is_exact } = order(&surface.triangles, &face_of, &broken, stop)?;
+    let covered = covered(&surface.triangles, &face_of, faces.len(), stop)?;
+    let seen = surface.triangles.iter().zip(&face_of).filter(|(_, face)| covered.get(**face as usize) == Some(&false));
+    let (triangles, face_of): (Vec<Triangle>, Vec<u32>) = seen.map(|(triangle, face)| (*triangle, *face)).unzip();
+    let Order { painted, is_exact } = order(&triangles, &face_of, &broken, stop)?;
 
     let polygon = |face: u32| {
         let corners =
@@ -86,7 +90,7 @@ pub(super) fn fill(
             (corners, color(face, paints[face as usize].front.unwrap_or(true)))
         }
         Painted::Piece(corners, number) => {
-            let triangle = surface.triangles[number as usize].number;
+            let triangle = triangles[number as usize].number;
             (corners, color(face_of[number as usize], surface.fronts[triangle as usize]))
         }
     };

@@ -19,7 +19,7 @@ use super::surface::Triangle;
 const SAME: f64 = 1e-7;
 
 /// Overlaps of less are none: a square a thousandth of a millimetre wide on a large page.
-const AREA: f64 = 1e-10;
+pub(super) const AREA: f64 = 1e-10;
 
 /// Most pairs that are kept, and most pieces that faces are cut into.
 const MOST_PAIRS: usize = 20_000_000;
@@ -118,7 +118,7 @@ fn pairs(
 }
 
 /// Whether some of the first triangle is nearer to the eye than the second, where both are seen, and farther.
-fn compare(a: &[DVec3; 3], b: &[DVec3; 3]) -> (bool, bool) {
+pub(super) fn compare(a: &[DVec3; 3], b: &[DVec3; 3]) -> (bool, bool) {
     let normal = (b[1] - b[0]).cross(b[2] - b[0]);
     let turn = normal.z.signum();
     let mut overlap = a.to_vec();
@@ -153,7 +153,7 @@ fn clip(polygon: &mut Vec<DVec3>, scratch: &mut Vec<DVec3>, side: impl Fn(DVec3)
 }
 
 /// Twice the area of a polygon.
-fn area(points: &[DVec2]) -> f64 {
+pub(super) fn area(points: &[DVec2]) -> f64 {
     let n = points.len();
     (2..n).map(|i| (points[i - 1] - points[0]).perp_dot(points[i] - points[0])).sum()
 }

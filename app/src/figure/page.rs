@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-use super::chain::chain;
-use super::letters::{self, Glyph};
+use super::build::Builder;
+use super::letters::Glyph;
 use super::notes::Inks;
 use super::text::{self, Block};
-use super::{Class, Dash, Line, ON_SCREEN, Page, Settings};
+use super::{Class, Line, ON_SCREEN, Page, Settings};
 
 /// A place on the page in hundredths of a point (1/72 inch), from its upper left corner, y down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -51,6 +51,8 @@ pub enum Layer {
     Lines {
         /// Which.
         name: &'static str,
+        /// Which of [`DEPTHS`] parts of the scene they lie in, 0 for the nearest, if lines fade.
+        depth: usize,
         /// How they look.
         line: Line,
         /// Where they are.
@@ -171,6 +173,9 @@ pub struct Tile {
     /// What stands below it.
     pub caption: String,
 }
+
+/// In so many steps lines fade with their depth.
+pub const DEPTHS: usize = 8;
 
 /// The room around a drawing in points, beyond its places.
 type Extent = [DVec2; 2];
@@ -347,8 +352,33 @@ impl Sketch {
     }
 
     /// How lines of a class look, if there are any.
-    fn line(&self, class: Class, settings: &Settings) -> Option<Line> {
+    pub(super) fn line(&self, class: Class, settings: &Settings) -> Option<Line> {
         settings.lines[class as usize].filter(|_| !self.lines[class as usize].is_empty())
+    }
+
+    /// Lines of a class by their depth, cut where one step ends and the next begins.
+    pub(super) fn by_depth(&self, class: Class, fade: f64) -> Vec<Vec<[DVec3; 2]>> {
+        let pieces = &self.lines[class as usize];
+        let ends = self.lines.iter().flatten().flatten();
+        let nowhere = (f64::INFINITY, f64::NEG_INFINITY);
+        let (far, near) = ends.fold(nowhere, |(far, near), p| (far.min(p.z), near.max(p.z)));
+        if fade <= 0.0 || near - far < 1e-9 {
+            return vec![pieces.clone()];
+        }
+        let depth = |p: DVec3| (near - p.z) / (near - far) * DEPTHS as f64;
+        let mut all = vec![Vec::new(); DEPTHS];
+        for &[a, b] in pieces {
+            let (from, to) = (depth(a), depth(b));
+            let mut cuts: Vec<f64> = (1..DEPTHS).map(|step| (step as f64 - from) / (to - from)).collect();
+            cuts.retain(|t| *t > 0.0 && *t < 1.0);
+            cuts.extend([0.0, 1.0]);
+            cuts.sort_by(f64::total_cmp);
+            for w in cuts.windows(2) {
+                let middle = depth(a.lerp(b, (w[0] + w[1]) / 2.0));
+                all[(middle as usize).min(DEPTHS - 1)].push([a.lerp(b, w[0]), a.lerp(b, w[1])]);
+            }
+        }
+        all
     }
 
     fn points<'a>(&'a self, settings: &'a Settings) -> impl Iterator<Item = DVec2> + 'a {
@@ -359,135 +389,4 @@ impl Sketch {
         let dots = self.dots.iter().flat_map(|dots| &dots.places).copied();
         ends.chain(corners).chain(strokes).chain(dots)
     }
-}
-
-/// Layers in the order in which they are drawn, each kind one.
-struct Builder<'a> {
-    settings: &'a Settings,
-    inks: Inks,
-    faces: Vec<(Vec<At>, [u8; 3])>,
-    lines: Vec<(&'static str, Line, Vec<[At; 2]>)>,
-    dots: Vec<Layer>,
-    texts: Vec<Layer>,
-    is_exact: bool,
-    tiles: usize,
-}
-
-impl<'a> Builder<'a> {
-    fn new(settings: &'a Settings, inks: Inks) -> Self {
-        let (faces, lines, dots, texts) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { settings, inks, faces, lines, dots, texts, is_exact: true, tiles: 0 }
-    }
-
-    /// Adds a sketch with those of its notes that are shown; `at` says where its places are in points, y down, and
-    /// `corner` is its lower left corner there.
-    fn add(&mut self, sketch: Sketch, notes: Vec<Block>, at: impl Fn(DVec2) -> DVec2, corner: DVec2) {
-        self.tiles += 1;
-        self.is_exact &= !sketch.is_rough;
-        let place = |p: &DVec2| rounded(at(*p));
-        let faces = sketch.faces.iter().map(|(corners, color)| (corners.iter().map(place).collect(), *color));
-        self.faces.extend(faces);
-        for class in Class::ALL {
-            if let Some(line) = sketch.line(class, self.settings) {
-                let pieces = sketch.lines[class as usize].iter().map(|ends| ends.map(|p| place(&p.xy())));
-                self.stroke(class.name(), line, pieces.collect());
-            }
-        }
-        for Strokes { name, line, pieces, heads } in &sketch.strokes {
-            self.stroke(name, *line, pieces.iter().map(|ends| ends.each_ref().map(place)).collect());
-            for [before, tip] in heads.iter().map(|ends| ends.map(&at)) {
-                let back = (before - tip).normalize_or_zero() * line.width * 4.5;
-                let sides = [0.45, -0.45].map(|angle| tip + DVec2::from_angle(angle).rotate(back));
-                self.stroke(name, *line, vec![[rounded(sides[0]), rounded(tip)], [rounded(tip), rounded(sides[1])]]);
-            }
-        }
-        for Dots { name, diameter, color, places } in &sketch.dots {
-            self.dot(name, *diameter, *color, places.iter().map(place).collect());
-        }
-        for block in notes {
-            let center = at(block.at) + DVec2::new(block.offset.x, -block.offset.y);
-            self.write(block.name, &block.text, center, block.size, block.color);
-        }
-        if let Some(axes) = sketch.axes {
-            self.axes(axes, corner);
-        }
-    }
-
-    fn stroke(&mut self, name: &'static str, line: Line, pieces: Vec<[At; 2]>) {
-        match self.lines.iter_mut().find(|(other, look, _)| *other == name && *look == line) {
-            Some((.., all)) => all.extend(pieces),
-            None => self.lines.push((name, line, pieces)),
-        }
-    }
-
-    fn dot(&mut self, name: &'static str, diameter: f64, color: [u8; 3], mut places: Vec<At>) {
-        let (of, size) = (name, hundredths(diameter));
-        let same = |layer: &&mut Layer| matches!(layer, Layer::Dots { name, diameter, .. } if *name == of && *diameter == size);
-        match self.dots.iter_mut().find(same) {
-            Some(Layer::Dots { places: all, .. }) => all.append(&mut places),
-            _ => self.dots.push(Layer::Dots { name, diameter: size, color, places }),
-        }
-    }
-
-    /// A line of text around a point.
-    fn write(&mut self, name: &'static str, text: &str, center: DVec2, size: f64, color: [u8; 3]) {
-        let row = letters::set(text, size);
-        let start = center + DVec2::new(-row.width / 2.0, letters::CAPITAL * size / 2.0);
-        let glyphs = row.glyphs.iter().map(|&(glyph, x)| (glyph, rounded(start + DVec2::new(x, 0.0)))).collect();
-        let words = Words { text: text.to_owned(), glyphs };
-        let (of, ink, height) = (name, color, hundredths(size));
-        let same = |layer: &&mut Layer| matches!(layer, Layer::Text { name, color, size, .. } if (*name, *color, *size) == (of, ink, height));
-        match self.texts.iter_mut().find(same) {
-            Some(Layer::Text { words: all, .. }) => all.push(words),
-            _ => {
-                let halo = (self.inks.paper, hundredths(0.28 * size));
-                self.texts.push(Layer::Text { name, size: height, color, halo, words: vec![words] });
-            }
-        }
-    }
-
-    /// A line of text that is no wider than so many points.
-    fn caption(&mut self, text: &str, center: DVec2, size: f64, width: f64) {
-        self.write("captions", &text::shortened(text, size, width), center, size, self.inks.text);
-    }
-
-    /// The directions of the axes, in a corner.
-    fn axes(&mut self, directions: [DVec3; 3], corner: DVec2) {
-        const COLORS: [[u8; 3]; 3] = [[0xc4, 0x2a, 0x1e], [0x1d, 0x7a, 0x2f], [0x1a, 0x52, 0xcc]];
-        const NAMES: [[&str; 2]; 3] = [["x-axis", "x"], ["y-axis", "y"], ["z-axis", "z"]];
-        let size = self.settings.letters;
-        let length = 2.4 * size;
-        let center = corner + DVec2::new(1.5, -1.5) * length;
-        for ((direction, color), [name, letter]) in directions.into_iter().zip(COLORS).zip(NAMES) {
-            let along = DVec2::new(direction.x, -direction.y);
-            let tip = center + along * length;
-            let line = Line { width: 0.12 * size, color, dash: Dash::Solid };
-            self.stroke(name, line, vec![[rounded(center), rounded(tip)]]);
-            let aside = if along.length() > 0.15 { along.normalize() } else { DVec2::new(0.7, -0.7) };
-            self.write(name, letter, tip + aside * 0.7 * size, size, color);
-        }
-    }
-
-    fn finish(mut self, size: DVec2) -> Drawing {
-        let rank = |name: &str| Class::ALL.iter().position(|class| class.name() == name).unwrap_or(Class::ALL.len());
-        self.lines.sort_by_key(|(name, ..)| rank(name));
-        let mut layers = Vec::new();
-        if !self.faces.is_empty() {
-            layers.push(Layer::Faces(self.faces));
-        }
-        let lines =
-            self.lines.into_iter().map(|(name, line, pieces)| Layer::Lines { name, line, paths: chain(pieces) });
-        layers.extend(lines);
-        layers.extend(self.dots);
-        layers.extend(self.texts);
-        Drawing { size: rounded(size), layers, is_exact: self.is_exact, crowded_out: 0 }
-    }
-}
-
-fn rounded(points: DVec2) -> At {
-    At { x: hundredths(points.x), y: hundredths(points.y) }
-}
-
-fn hundredths(points: f64) -> i32 {
-    (points * 100.0).round() as i32
 }

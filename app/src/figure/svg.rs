@@ -63,7 +63,8 @@ fn write_layer(text: &mut String, layer: &Layer, letters: &[(Glyph, i32)]) -> st
                 writeln!(text, "<path fill=\"{color}\" stroke=\"{color}\" d=\"{}z\"/>", path(corners))?;
             }
         }
-        Layer::Lines { name, line, paths } => {
+        Layer::Lines { name, depth, line, paths } => {
+            let name = if *depth == 0 { (*name).to_owned() } else { format!("{name}-{depth}") };
             let (color, width) = (hex(line.color), hundredths((line.width * 100.0).round() as i32));
             write!(text, "<g id=\"{name}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\"")?;
             match line.dash {

@@ -315,8 +315,11 @@ fn check_order(obj: &str, orthographic: bool) {
     let space = Space::new(&camera, 1.0, &Style::default().cut, case.scene.bounds(&Style::default()));
     let surface = Surface::new(&case.scene, &case.mesh, &space, false);
     let face_of: Vec<u32> = surface.triangles.iter().map(|t| part.triangle_faces[t.number as usize]).collect();
+    let hidden = covered::covered(&surface.triangles, &face_of, case.faces.len(), &Stop::new()).unwrap();
+    let seen = surface.triangles.iter().zip(&face_of).filter(|(_, face)| !hidden[**face as usize]);
+    let (triangles, faces_seen): (Vec<_>, Vec<u32>) = seen.map(|(triangle, face)| (*triangle, *face)).unzip();
     let broken = vec![false; case.faces.len()];
-    let order = order::order(&surface.triangles, &face_of, &broken, &Stop::new()).unwrap();
+    let order = order::order(&triangles, &faces_seen, &broken, &Stop::new()).unwrap();
     assert!(order.is_exact);
     let polygon = |face: u32| -> Vec<DVec2> {
         let corners = case.faces.get(face as usize).iter().map(|v| surface.corner_of[v.index()]);
@@ -327,7 +330,7 @@ fn check_order(obj: &str, orthographic: bool) {
         .iter()
         .map(|painted| match painted {
             order::Painted::Whole(face) => (polygon(*face), *face),
-            order::Painted::Piece(corners, number) => (corners.clone(), face_of[*number as usize]),
+            order::Painted::Piece(corners, number) => (corners.clone(), faces_seen[*number as usize]),
         })
         .collect();
     let covers = |corners: &[DVec2], p: DVec2| {
@@ -372,12 +375,58 @@ fn faces_are_painted_from_back_to_front_and_cut_where_they_pierce_each_other() {
 }
 
 #[test]
+fn faces_that_others_cover_are_not_painted() {
+    let painted = |obj: &str| {
+        let case = Case::new(obj);
+        let drawing = case.draw_from(&case.camera(true), &Style::default(), &Settings::default()).unwrap();
+        match drawing.layers.first() {
+            Some(Layer::Faces(areas)) => areas.len(),
+            _ => 0,
+        }
+    };
+    assert_eq!(painted(CUBE), 3);
+    // Behind a square in four pieces, and behind one with a hole.
+    let quarters = "v -1 -1 0\nv 0 -1 0\nv 1 -1 0\nv -1 0 0\nv 0 0 0\nv 1 0 0\nv -1 1 0\nv 0 1 0\nv 1 1 0\n\
+                    v -.4 -.4 -.1\nv .2 -.4 -.1\nv .2 .4 -.1\nf 10 11 12\nf 1 2 5 4\nf 2 3 6 5\nf 4 5 8 7\n";
+    assert_eq!(painted(&format!("{quarters}f 5 6 9 8\n")), 4);
+    assert_eq!(painted(quarters), 4, "and where the fourth is missing it is seen");
+}
+
+#[test]
+fn lines_fade_with_their_depth() {
+    let case = Case::new(CUBE);
+    let settings = Settings { fade: 0.75, ..Settings::default() };
+    let drawing = case.draw(&settings);
+    let mut lines = Vec::new();
+    for layer in &drawing.layers {
+        if let Layer::Lines { name: "outline", depth, line, .. } = layer {
+            lines.push((*depth, line.color[0]));
+        }
+    }
+    // From far to near, so that what is near covers what is far.
+    assert!(lines.len() > 3 && lines.is_sorted_by(|a, b| a.0 > b.0 && a.1 > b.1), "{lines:?}");
+    assert!(lines.iter().all(|&(depth, gray)| gray == (0.75 * 255.0 * depth as f64 / 7.0).round() as u8), "{lines:?}");
+    let length = |drawing: &Drawing| -> f64 {
+        let of = |path: &Path| {
+            let around = path.closed.then_some([path.points[path.points.len() - 1], path.points[0]]);
+            let steps = path.points.windows(2).map(|w| [w[0], w[1]]).chain(around);
+            steps.map(|[a, b]| a.minus(b).length()).sum::<f64>()
+        };
+        let paths =
+            drawing.layers.iter().map(|layer| if let Layer::Lines { paths, .. } = layer { &paths[..] } else { &[] });
+        paths.flatten().map(of).sum()
+    };
+    let plain = length(&case.draw(&Settings::default()));
+    assert!((length(&drawing) - plain).abs() < 1e-3 * plain, "the lines are the same");
+}
+
+#[test]
 fn faces_have_the_colours_of_their_vertices() {
     let red = CUBE.lines().map(|l| if l.starts_with('v') { format!("{l} 1 0 0\n") } else { format!("{l}\n") });
     let case = Case::new(&red.collect::<String>());
     let drawing = case.draw_from(&case.camera(false), &Style::default(), &Settings::default()).unwrap();
     let Some(Layer::Faces(areas)) = drawing.layers.first() else { panic!("{drawing:?}") };
-    assert_eq!(areas.len(), 6);
+    assert_eq!(areas.len(), 3, "those that are seen");
     assert!(areas.iter().all(|(_, [r, g, b])| *r > 2 * g.max(b)), "{areas:?}");
 }
 
@@ -423,7 +472,7 @@ fn svg_is_xml_with_a_group_for_each_class() {
     let ids: Vec<_> =
         groups.map(|g| (g.attribute("id").unwrap(), g.children().filter(|c| c.is_element()).count())).collect();
     assert_eq!(ids.iter().map(|g| g.0).collect::<Vec<_>>(), ["faces", "hidden", "inner", "outline", "vertices"]);
-    assert_eq!((ids[0].1, ids[4].1), (6, 7));
+    assert_eq!((ids[0].1, ids[4].1), (3, 7));
 }
 
 #[test]
@@ -433,7 +482,7 @@ fn eps_has_a_tight_box_and_short_lines() {
     assert!(text.contains("\n%%HiResBoundingBox: 0 0 340.15 ") && text.ends_with("showpage\n%%EOF\n"), "{text}");
     assert!(text.lines().all(|line| line.len() < 256 && line.is_ascii()));
     let count = |word: &str| text.split_whitespace().filter(|w| *w == word).count();
-    assert_eq!((count("f"), count("d")), (6, 7));
+    assert_eq!((count("f"), count("d")), (3, 7));
     assert_eq!(count("begin"), count("end"));
 }
 
@@ -455,7 +504,7 @@ fn pdf_says_where_its_objects_are() {
     let mut content = String::new();
     flate2::read::ZlibDecoder::new(&bytes[from..]).read_to_string(&mut content).unwrap();
     let count = |word: &str| content.split_whitespace().filter(|w| *w == word).count();
-    assert_eq!(count("b"), 6, "{content}");
+    assert_eq!(count("b"), 3, "{content}");
     assert!(bytes.starts_with(b"%PDF-1.4\n") && bytes.ends_with(b"%%EOF\n"));
 }
 

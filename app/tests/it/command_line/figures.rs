@@ -131,3 +131,18 @@ fn values_that_are_swept_stand_side_by_side_and_a_run_that_fails_leaves_its_plac
     folder.check("run grow.vv -i octahedron.obj -D w=0.5,0.75 -o a.svg", 0, "");
     assert_eq!(written(&folder.read("a.svg")), ["w = 0.5", "w = 0.75"]);
 }
+
+#[test]
+fn lines_far_away_are_lighter_where_that_is_asked_for() {
+    let folder = Folder::with(&[("look.json", "{\"fade\": 1}")]);
+    let lightest = |options: &str| {
+        folder.check(&format!("mesh convert octahedron.obj -o a.svg {options}"), 0, "");
+        let text = folder.read("a.svg");
+        text.split("stroke=\"#").skip(1).filter(|t| t.contains("linecap")).map(|t| t[..3].to_owned()).max().unwrap()
+    };
+    assert_eq!(lightest(""), "000");
+    let [some, more] = ["--fade=0.3", "--fade"].map(lightest);
+    assert!("000" < some.as_str() && some < more, "{some} {more}");
+    assert!(more < lightest("--style look.json"));
+    check("mesh convert octahedron.obj -o a.svg --fade=2", 2, "lines fade by a number from 0 to 1");
+}
