@@ -118,6 +118,7 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
         memos: Vec::new(),
         functions: rustc_hash::FxHashMap::default(),
         symbols: rustc_hash::FxHashMap::default(),
+        rare: rustc_hash::FxHashMap::default(),
         mutation,
     };
     for &symbol in Symbol::ALL {
@@ -158,6 +159,12 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
     let b = FunctionBuilder::new(&mut compiler.func, &mut builder);
     Translator::new(b, module, &mut unit, "globals").globals()?;
     define(module, globals, &mut compiler)?;
+    for symbol in Symbol::ALL {
+        let Some((&id, &callee)) = unit.rare.get(symbol).zip(unit.symbols.get(symbol)) else { continue };
+        compiler.func.name = UserFuncName::user(0, id.as_u32());
+        translate::between(*symbol, callee, module, &mut compiler.func, &mut builder);
+        define(module, id, &mut compiler)?;
+    }
     module.finalize_definitions().map_err(|_| refused("the system lets no memory be executable that was written"))?;
     let entries = roots.iter().filter_map(|id| Some((*id, *unit.functions.get(id)?))).collect::<Vec<_>>();
     let Unit { facts, layout, sites, texts, memos, .. } = unit;

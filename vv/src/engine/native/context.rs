@@ -47,6 +47,11 @@ pub(super) struct Context {
     pub(super) site: u64,
     /// Operands and results of runtime functions, results of compiled ones.
     pub(super) value: [u64; 12],
+    /// Operands behind the first, and the result, of runtime functions that are called rarely.
+    pub(super) operands: [u64; 4],
+    pub(super) result: u64,
+    /// The context itself.
+    pub(super) this: *mut Context,
     /// A ring of nulls around what is in no ring. Nobody writes it.
     pub(super) nothing: [u32; 4],
     /// How many bytes stand before each of the first slots of a ring.
@@ -200,6 +205,9 @@ offsets! {
     WALK_COUNT walk_count
     SITE site
     VALUE value
+    OPERANDS operands
+    RESULT result
+    THIS this
     NOTHING nothing
     OFFSETS offsets
 }

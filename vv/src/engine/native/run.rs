@@ -232,6 +232,7 @@ pub(super) fn run(
     // SAFETY: the block of words is as long as the layout says, at least a header; nothing else refers to it.
     unsafe {
         (*context).run = run_pointer.cast();
+        (*context).this = context;
         (*context).stop = (*run_pointer).fixed.settings.stop.flag().as_ptr();
         (*context).offsets = std::array::from_fn(|i| 4 * i as u32);
         (*context).max_depth = u64::from((*run_pointer).fixed.settings.limits.max_call_depth);

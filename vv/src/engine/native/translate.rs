@@ -15,6 +15,7 @@ mod lanes;
 mod list;
 mod make;
 mod place;
+mod rare;
 mod ring;
 mod set;
 mod statement;
@@ -41,6 +42,7 @@ use crate::mesh;
 use crate::source::Span;
 
 use known::{Bounds, Known};
+pub(super) use rare::between;
 
 /// Why a program is left to the interpreter.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -69,6 +71,8 @@ pub(super) struct Unit<'p> {
     pub(super) memos: Vec<Memo>,
     pub(super) functions: FxHashMap<FunctionId, FuncId>,
     pub(super) symbols: FxHashMap<Symbol, FuncId>,
+    /// What stands before runtime functions where they are called rarely, see [`rare`].
+    pub(super) rare: FxHashMap<Symbol, FuncId>,
     /// An instruction that is translated wrongly, for the test of the tests.
     pub(super) mutation: Mutation,
 }
@@ -238,7 +242,7 @@ pub(super) struct Translator<'t, 'p> {
     prepared: VecDeque<place::Spot>,
     fail: Block,
     regions: Regions,
-    symbol_refs: FxHashMap<Symbol, FuncRef>,
+    symbol_refs: FxHashMap<FuncId, FuncRef>,
     function_refs: FxHashMap<FunctionId, FuncRef>,
     /// How many sets there were before the function's own.
     set_mark: Option<Value>,

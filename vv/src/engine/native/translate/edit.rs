@@ -53,7 +53,7 @@ impl<'p> Translator<'_, 'p> {
             } else {
                 t.b.ins().jump(ways.slow, &[]);
             }
-        });
+        })?;
         self.note_put(x, v);
         Ok(())
     }
@@ -154,7 +154,7 @@ impl<'p> Translator<'_, 'p> {
             } else {
                 t.b.ins().jump(ways.slow, &[]);
             }
-        });
+        })?;
         self.note_put(x, v);
         Ok(())
     }
@@ -267,8 +267,7 @@ impl<'p> Translator<'_, 'p> {
             None => {
                 t.b.ins().jump(ways.slow, &[]);
             }
-        });
-        Ok(())
+        })
     }
 
     /// Takes a vertex out of a ring without gaps.
@@ -321,12 +320,18 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Edits the ring of `v` in line where `in_line` finds it can, else in the runtime.
-    pub(super) fn edit(&mut self, symbol: Symbol, v: Value, operands: &[Value], in_line: impl FnOnce(&mut Self, Ways)) {
+    pub(super) fn edit(
+        &mut self,
+        symbol: Symbol,
+        v: Value,
+        operands: &[Value],
+        in_line: impl FnOnce(&mut Self, Ways),
+    ) -> Translated<()> {
         let ways = Ways { slow: self.b.create_block(), done: self.b.create_block() };
         self.b.set_cold_block(ways.slow);
         in_line(self, ways);
         self.continue_in(ways.slow);
-        self.call_or_fail(symbol, operands);
+        self.call_rarely_or_fail(symbol, operands)?;
         self.b.ins().jump(ways.done, &[]);
         self.continue_in(ways.done);
         if self.mutated(Mutation::EditsMoveNothing) {
@@ -334,5 +339,6 @@ impl<'p> Translator<'_, 'p> {
         } else {
             self.known.forget_ring(v);
         }
+        Ok(())
     }
 }

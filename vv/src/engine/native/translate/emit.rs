@@ -1,8 +1,8 @@
 //! What all translation is made of: blocks, calls of the runtime, places where a run may end.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{Block, BlockArg, InstBuilder, MemFlagsData, Type as ClifType, Value, types};
-use cranelift_module::Module;
+use cranelift_codegen::ir::{Block, BlockArg, FuncRef, InstBuilder, MemFlagsData, Type as ClifType, Value, types};
+use cranelift_module::{FuncId, Module};
 
 use super::{Site, Symbol, Translator};
 use crate::engine::native::context::{self, status};
@@ -30,17 +30,16 @@ impl Translator<'_, '_> {
     }
 
     pub(super) fn call_with(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
-        let function = match self.symbol_refs.get(&symbol) {
-            Some(&f) => f,
-            None => {
-                let id = self.unit.symbols.get(&symbol).copied()?;
-                let f = self.module.declare_func_in_func(id, self.b.func);
-                self.symbol_refs.insert(symbol, f);
-                f
-            }
-        };
+        let id = self.unit.symbols.get(&symbol).copied()?;
+        let function = self.function_ref(id);
         let call = self.b.ins().call(function, operands);
         self.b.inst_results(call).first().copied()
+    }
+
+    /// How the function that is being translated names another.
+    pub(super) fn function_ref(&mut self, id: FuncId) -> FuncRef {
+        let (module, func) = (&mut *self.module, &mut *self.b.func);
+        *self.symbol_refs.entry(id).or_insert_with(|| module.declare_func_in_func(id, func))
     }
 
     /// Calls a runtime function that returns a status, and fails where that is not zero.

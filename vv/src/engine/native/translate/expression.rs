@@ -121,7 +121,7 @@ impl<'p> Translator<'_, 'p> {
                 let len = self.bounds_of(source)?.len;
                 let n = match source {
                     Source::Of { v, old } if !self.mutated(Mutation::ForgetsGapsOfValence) => {
-                        let gaps = self.gaps(v, old);
+                        let gaps = self.gaps(v, old)?;
                         self.b.ins().isub(len, gaps)
                     }
                     _ => len,
@@ -130,7 +130,7 @@ impl<'p> Translator<'_, 'p> {
             }
             ExprKind::Gaps(ring) => {
                 let Source::Of { v, old } = self.source(ring)? else { return Err(wrong_type()) };
-                let gaps = self.gaps(v, old);
+                let gaps = self.gaps(v, old)?;
                 Ok(Val::One(self.b.ins().uextend(types::I64, gaps)))
             }
         }

@@ -93,7 +93,7 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().store(flags, len, list, context::LIST_LEN);
         self.b.ins().jump(done, &[]);
         self.continue_in(slow);
-        self.call_or_fail(Symbol::ListPush, &[index, v]);
+        self.call_rarely_or_fail(Symbol::ListPush, &[index, v])?;
         self.b.ins().jump(done, &[]);
         self.continue_in(done);
         Ok(())

@@ -46,7 +46,7 @@ impl<'p> Translator<'_, 'p> {
         }
         let address = self.b.ins().stack_addr(types::I64, slot, 0);
         let n = self.int32(n);
-        self.call_or_fail(Symbol::Make, &[v, address, n]);
+        self.call_rarely_or_fail(Symbol::Make, &[v, address, n])?;
         self.b.ins().jump(done, &[]);
         self.continue_in(done);
         self.known.forget_ring(v);
@@ -77,7 +77,7 @@ impl<'p> Translator<'_, 'p> {
                 t.continue_in(longer);
             }
             t.b.ins().jump(slow, &[]);
-        });
+        })?;
         self.known.made(v);
         self.known.put_any(v);
         Ok(())

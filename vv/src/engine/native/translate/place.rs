@@ -55,7 +55,7 @@ impl<'p> Translator<'_, 'p> {
     fn owner(&mut self, e: &'p Expr, old: bool) -> Translated<Value> {
         let v = self.vertex(e)?;
         if old {
-            self.held(v);
+            self.held(v)?;
         } else {
             self.not_null(v);
         }
@@ -235,7 +235,7 @@ impl<'p> Translator<'_, 'p> {
         let write = self.b.create_block();
         self.b.ins().brif(room, write, &[], grow, &[]);
         self.continue_in(grow);
-        self.call_or_fail(Symbol::GrowVertices, &[]);
+        self.call_rarely_or_fail(Symbol::GrowVertices, &[])?;
         self.b.ins().jump(write, &[]);
         self.continue_in(write);
         let next = self.b.ins().iadd_imm_s(count, 1);

@@ -24,7 +24,7 @@ impl<'p> Translator<'_, 'p> {
             Ring::Of { vertex, old } => {
                 let v = self.vertex(vertex)?;
                 if *old {
-                    self.held(v);
+                    self.held(v)?;
                 } else {
                     self.not_null(v);
                 }
@@ -77,9 +77,9 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Fails unless a vertex is not null and has an old value.
-    pub(super) fn held(&mut self, v: Value) {
+    pub(super) fn held(&mut self, v: Value) -> Translated<()> {
         if self.known.holds(Key::Held(v)) {
-            return;
+            return Ok(());
         }
         let wide = self.wide(v);
         let prefix = self.load_context(types::I64, context::OLD_PREFIX);
@@ -95,13 +95,14 @@ impl<'p> Translator<'_, 'p> {
         let next = self.b.create_block();
         self.b.ins().brif(beyond, ask, &[], next, &[]);
         self.continue_in(ask);
-        if let Some(holds) = self.call(Symbol::Holds, &[v]) {
+        if let Some(holds) = self.call_rarely(Symbol::Holds, &[v])? {
             let fail = self.fail;
             self.b.ins().brif(holds, next, &[], fail, &[]);
         }
         self.continue_in(next);
         self.known.is_not_null(v);
         self.known.learn(Key::Held(v), Fact::Holds);
+        Ok(())
     }
 
     /// Address of an element of an array with one per vertex; offsets from it are the element's own.
@@ -241,9 +242,9 @@ impl<'p> Translator<'_, 'p> {
         let index = match source {
             Source::Of { v, old } => {
                 let of_old = self.int32(u32::from(old));
-                self.call(Symbol::Find, &[sought, v, of_old])
+                self.call_rarely(Symbol::Find, &[sought, v, of_old])?
             }
-            Source::Variable(_) => self.call(Symbol::ListFind, &[start, len, sought]),
+            Source::Variable(_) => self.call_rarely(Symbol::ListFind, &[start, len, sought])?,
         };
         let index = index.unwrap_or(sought);
         let found = self.b.ins().icmp_imm_s(IntCC::SignedGreaterThanOrEqual, index, 0);
@@ -318,7 +319,7 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// How many gaps, i32.
-    pub(super) fn gaps(&mut self, v: Value, old: bool) -> Value {
+    pub(super) fn gaps(&mut self, v: Value, old: bool) -> Translated<Value> {
         let gap = self.has_gap(v, old);
         let (done, results) = self.block_with(&[types::I32]);
         let count = self.b.create_block();
@@ -327,12 +328,12 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().brif(gap, count, &[], none, &[]);
         self.continue_in(count);
         let of_old = self.int32(u32::from(old));
-        let gaps = self.call(Symbol::Gaps, &[v, of_old]).unwrap_or(of_old);
+        let gaps = self.call_rarely(Symbol::Gaps, &[v, of_old])?.unwrap_or(of_old);
         self.jump_with(done, &[gaps]);
         self.continue_in(none);
         let zero = self.int32(0);
         self.jump_with(done, &[zero]);
         self.continue_in(done);
-        results[0]
+        Ok(results[0])
     }
 }

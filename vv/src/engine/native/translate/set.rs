@@ -72,7 +72,7 @@ impl<'p> Translator<'_, 'p> {
         let within = self.inverted_if(within, Mutation::IsInSetInverted);
         self.jump_with(done, &[within]);
         self.continue_in(call);
-        let contains = self.call(Symbol::SetContains, &[set, v]).ok_or_else(wrong_type)?;
+        let contains = self.call_rarely(Symbol::SetContains, &[set, v])?.ok_or_else(wrong_type)?;
         let contains = self.b.ins().ireduce(types::I8, contains);
         let contains = self.inverted_if(contains, Mutation::IsInSetInverted);
         self.jump_with(done, &[contains]);
@@ -89,7 +89,7 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// `add`: pushes in line where the vertex is larger than all members and there is room.
-    pub(super) fn add(&mut self, v: Value, set: Value) {
+    pub(super) fn add(&mut self, v: Value, set: Value) -> Translated<()> {
         let set_address = self.set_address(set);
         let flags = self.regions.sets;
         let len = self.b.ins().load(types::I64, flags, set_address, context::SET_LEN);
@@ -113,8 +113,9 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().store(flags, wide, set_address, context::SET_LAST);
         self.b.ins().jump(done, &[]);
         self.continue_in(slow);
-        self.call_or_fail(Symbol::SetAdd, &[set, v]);
+        self.call_rarely_or_fail(Symbol::SetAdd, &[set, v])?;
         self.b.ins().jump(done, &[]);
         self.continue_in(done);
+        Ok(())
     }
 }

@@ -90,7 +90,7 @@ impl<'p> Translator<'_, 'p> {
                 let v = self.vertex_not_null(vertex)?;
                 let set = self.set_of(*set)?;
                 if !self.mutated(Mutation::AddsNoMember) {
-                    self.add(v, set);
+                    self.add(v, set)?;
                 }
             }
             StmtKind::Remove { vertex, set } => {

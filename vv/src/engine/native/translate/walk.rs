@@ -161,7 +161,7 @@ impl<'p> Translator<'_, 'p> {
         let (walk, begin) = if moves {
             let count = self.load_context(types::I64, context::WALK_COUNT);
             let start = bounds.start;
-            bounds = self.copy_ring(bounds);
+            bounds = self.copy_ring(bounds)?;
             let begin = begin.map(|begin| {
                 let at = self.b.ins().isub(begin, start);
                 self.b.ins().iadd(bounds.start, at)
@@ -233,7 +233,7 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Copies a ring to where no edit reaches it: into the function's frame if it is short.
-    fn copy_ring(&mut self, Bounds { start, len, flags }: Bounds) -> Bounds {
+    fn copy_ring(&mut self, Bounds { start, len, flags }: Bounds) -> Translated<Bounds> {
         let longest = self.widths().iter().fold(0, |a, &b| a.max(b)) as u32;
         let frame = self.b.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 4 * longest, 4));
         let copy = self.b.ins().stack_addr(types::I64, frame, 0);
@@ -248,11 +248,11 @@ impl<'p> Translator<'_, 'p> {
             t.jump_with(ready, &[copy]);
         });
         self.continue_in(slow);
-        self.call_or_fail(Symbol::Walk, &[start, len]);
+        self.call_rarely_or_fail(Symbol::Walk, &[start, len])?;
         let address_of_long = self.load_context(types::I64, context::VALUE);
         self.jump_with(ready, &[address_of_long]);
         self.continue_in(ready);
-        Bounds { start: address[0], len, flags: self.regions.locals }
+        Ok(Bounds { start: address[0], len, flags: self.regions.locals })
     }
 
     pub(super) fn for_faces(&mut self, local: LocalId, set: &'p Expr, body: &'p [Stmt]) -> Translated<()> {
