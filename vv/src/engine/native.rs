@@ -69,7 +69,7 @@ mutations! {
     AddStepByTwo AddsNoMember AndIsOr AnyIsLast AppendsNothing AssignsNoRing AssignsNoSet BeginsAtTheStart BoolIsMinusOne BreakIsContinue CallsWithZeros
     ComparesBoolsInverted ComparesDoublesInverted ComparesIntsInverted ComparesVecsByX ComparesVerticesInverted
     ConditionalIsSwapped CreatesWithoutDefaults CrossIsNegated DifferenceIsSwapped DividesIntsByOne DotForgetsZ
-    DoubleToIntRounds EditsMoveNothing EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IgnoresRoom IsInRingInverted
+    DoubleToIntRounds EditsMoveNothing EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IgnoresGaps IgnoresRoom IsInRingInverted
     IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
     NotDoesNothing OldIsAsItCame OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
     ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
@@ -85,6 +85,7 @@ pub(crate) struct Native {
     memos: Vec<Memo>,
     creates: bool,
     grows: bool,
+    edits: bool,
 }
 
 impl std::fmt::Debug for Native {
@@ -173,6 +174,7 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
         layout,
         creates: facts.creates(),
         grows: facts.grows,
+        edits: facts.edits(),
         old_reads: facts.old_reads,
         sites,
         texts,
@@ -226,6 +228,7 @@ impl Native {
             memos: &self.memos,
             creates: self.creates,
             grows: self.grows,
+            edits: self.edits,
             settings,
         };
         match run::run(fixed, &self.code, function, mesh, generation, &mut output) {

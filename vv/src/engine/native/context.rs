@@ -32,6 +32,8 @@ pub(super) struct Context {
     pub(super) has_edge_values: u64,
     /// One less than a vertex is below this where compiled code may edit rings that end in it: all are but null, or none.
     pub(super) edit_limit: u64,
+    /// Whether rings may have gaps or values beside them: if not, compiled code may edit any. Once there are some it stays so.
+    pub(super) gaps_or_edge_values: u64,
     pub(super) old_heads: *const Head,
     pub(super) old_slots: *const u32,
     pub(super) old_positions: *const f64,
@@ -56,6 +58,8 @@ pub(super) struct Context {
     pub(super) nothing: [u32; 4],
     /// How many bytes stand before each of the first slots of a ring.
     pub(super) offsets: [u32; 16],
+    /// Lanes behind a slot: 16 that are all zeros, 16 that are all ones. Nobody writes it.
+    pub(super) behind: [u32; 32],
 }
 
 /// A set whose members compiled code may push.
@@ -194,6 +198,8 @@ offsets! {
     SLOT_CAPACITY slot_capacity
     HAS_EDGE_VALUES has_edge_values
     EDIT_LIMIT edit_limit
+    GAPS_OR_EDGE_VALUES gaps_or_edge_values
+    BEHIND behind
     OLD_HEADS old_heads
     OLD_SLOTS old_slots
     OLD_POSITIONS old_positions

@@ -157,6 +157,11 @@ impl Facts {
         self.functions.iter().any(|f| f.reached && f.effects.creates)
     }
 
+    /// Whether any function that can be reached edits rings.
+    pub(super) fn edits(&self) -> bool {
+        self.functions.iter().any(|f| f.reached && f.effects.edits)
+    }
+
     /// What statements do.
     pub(super) fn effects_of(&self, body: &[Stmt], update: &[Expr], condition: Option<&Expr>) -> Effects {
         let mut own = Own::default();
@@ -384,14 +389,14 @@ fn old_reads(program: &Program) -> OldReads {
 
 /// [`Facts::fresh_capacity`] and [`Facts::grows`].
 fn growth(program: &Program) -> (u32, bool) {
-    let (mut longest, mut grows) = (4, false);
+    let (mut made, mut least, mut grows) = (0, 4, false);
     for function in &program.functions {
         each(&function.body, &mut |node| {
             if let Node::Stmt(s) = node {
                 match &s.kind {
-                    StmtKind::Make { items, .. } => longest = longest.max(items.len()),
+                    StmtKind::Make { items, .. } => made = made.max(items.len() as u32),
                     StmtKind::Splice { item, ring: Ring::Of { .. }, .. } => {
-                        longest = longest.max(FRESH_CAPACITY as usize);
+                        least = FRESH_CAPACITY;
                         grows |= matches!(item, Item::Vertex(_));
                     }
                     _ => {}
@@ -399,7 +404,9 @@ fn growth(program: &Program) -> (u32, bool) {
             }
         });
     }
-    (longest.min(FRESH_CAPACITY as usize) as u32, grows)
+    let made = made.min(FRESH_CAPACITY);
+    // What is spliced into a ring in a refinement is as much again at most.
+    (least.max(if grows { 2 * made } else { made }), grows)
 }
 
 /// A part of a program.

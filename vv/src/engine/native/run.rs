@@ -131,6 +131,8 @@ pub(super) struct Fixed<'a> {
     pub(super) creates: bool,
     /// Whether it splices vertices into rings.
     pub(super) grows: bool,
+    /// Whether it edits rings.
+    pub(super) edits: bool,
     pub(super) settings: &'a Settings,
 }
 
@@ -235,6 +237,7 @@ pub(super) fn run(
         (*context).this = context;
         (*context).stop = (*run_pointer).fixed.settings.stop.flag().as_ptr();
         (*context).offsets = std::array::from_fn(|i| 4 * i as u32);
+        (*context).behind = std::array::from_fn(|i| if i < 16 { 0 } else { u32::MAX });
         (*context).max_depth = u64::from((*run_pointer).fixed.settings.limits.max_call_depth);
     }
     // SAFETY: `run` lives until the end of this function and is used through this pointer alone until compiled code has

@@ -59,7 +59,17 @@ impl Run<'_> {
             (*self.context).has_edge_values = u64::from(has_edge_values);
             (*self.context).edit_limit = if has_edge_values { 0 } else { u64::MAX };
         }
+        let has_gap = |head: &Head| self.mesh.slots()[head.range()].last() == Some(&None);
+        if has_edge_values || self.fixed.edits && self.mesh.heads().iter().any(has_gap) {
+            self.note_gaps_or_edge_values();
+        }
         true
+    }
+
+    /// From now on compiled code asks whether rings have gaps or values beside them.
+    pub(super) fn note_gaps_or_edge_values(&mut self) {
+        // SAFETY: the context is valid, and compiled code does not run.
+        unsafe { (*self.context).gaps_or_edge_values = 1 };
     }
 
     /// Takes the arrays back from compiled code: their lengths become what it has written.

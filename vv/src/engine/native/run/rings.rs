@@ -94,6 +94,7 @@ pub(super) extern "C" fn make(context: *mut Context, v: u32, items: *const u32, 
         let items: Vec<Option<Vertex>> = items.iter().map(|&x| vertex(x)).collect();
         run.grow_slots_for(items.len())?;
         run.mesh.make(vertex(v)?, &items).ok()?;
+        run.look_for_a_gap(vertex(v)?);
         Some(status::DONE)
     })
 }
@@ -104,6 +105,13 @@ impl Run<'_> {
         let slots = self.mesh.arrays().slots;
         let needed = 2 * len + 16;
         if slots.capacity() < slots.len() + needed + PADDING { self.grow_slots(needed) } else { Some(()) }
+    }
+
+    /// A ring was edited that may have got a gap.
+    fn look_for_a_gap(&mut self, v: Vertex) {
+        if self.mesh.ring(v).slots().last() == Some(&None) {
+            self.note_gaps_or_edge_values();
+        }
     }
 
     fn len(&self, v: u32) -> usize {
@@ -123,6 +131,7 @@ pub(super) extern "C" fn erase(context: *mut Context, x: u32, v: u32) -> u32 {
 pub(super) extern "C" fn replace(context: *mut Context, a: u32, x: u32, v: u32) -> u32 {
     guard(context, status::REPEAT, |run| {
         run.mesh.replace(vertex(a), vertex(x), vertex(v)?).ok()?;
+        run.look_for_a_gap(vertex(v)?);
         Some(status::DONE)
     })
 }
@@ -134,6 +143,7 @@ pub(super) extern "C" fn splice(context: *mut Context, x: u32, a: u32, v: u32, b
         let (x, a, v) = (vertex(x), vertex(a), vertex(v)?);
         let done = if before != 0 { run.mesh.splice_before(x, a, v) } else { run.mesh.splice_after(x, a, v) };
         done.ok()?;
+        run.look_for_a_gap(v);
         Some(status::DONE)
     })
 }

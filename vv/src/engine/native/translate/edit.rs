@@ -71,7 +71,7 @@ impl<'p> Translator<'_, 'p> {
         }
         self.by_width(self.widths(), len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
-            let at = t.place_to_edit(&lanes, a, v, bytes, done);
+            let at = t.place_to_edit(&lanes, a, v, bytes, Ways { slow, done });
             t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
             if !t.mutated(Mutation::ReplacesNothing) {
                 // Stores as wide as the loads that will follow, for narrow ones would hold those up.
@@ -108,14 +108,22 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(search);
     }
 
-    /// Where `a` stands in the ring of `v`, of so many bytes, which fills the first of the lanes; on to `done` if it does not.
-    fn place_to_edit(&mut self, lanes: &[Value], a: Value, v: Value, bytes: Value, done: Block) -> Value {
+    /// Where `a` stands in the ring of `v`, of so many bytes, which begins with the lanes; on to `done` if it does not, or to
+    /// `slow` if it may stand behind them.
+    fn place_to_edit(&mut self, lanes: &[Value], a: Value, v: Value, bytes: Value, Ways { slow, done }: Ways) -> Value {
         if let Some(at) = self.known.place(a, v) {
             return at;
         }
         let at = self.first_match(lanes, a);
+        let missing = self.b.create_block();
+        self.b.set_cold_block(missing);
         let absent = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, at, bytes);
-        self.leave_if(absent, done);
+        let next = self.b.create_block();
+        self.b.ins().brif(absent, missing, &[], next, &[]);
+        self.continue_in(missing);
+        let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, bytes, 16 * lanes.len() as i64);
+        self.b.ins().brif(long, slow, &[], done, &[]);
+        self.continue_in(next);
         at
     }
 
@@ -160,35 +168,37 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Splices a vertex into a ring without gaps, which moves to twice the room if it has none left.
-    fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, Ways { slow, done }: Ways) {
+    fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, ways: Ways) {
+        let Ways { slow, done } = ways;
         let Bounds { start, len, flags } = self.bounds(v, false);
         let bytes = self.bytes_of(len);
-        self.by_width(self.edit_widths(), len, 1, slow, |t, width| {
+        let (head, heads) = (self.head(v, false), self.regions.heads);
+        let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+        self.by_room(capacity, |t, width| {
             let lanes = t.lanes(start, (width + 3) & !3, flags);
-            let at = t.place_to_edit(&lanes, a, v, bytes, done);
+            let at = t.place_to_edit(&lanes, a, v, bytes, ways);
             t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
-            let head = t.head(v, false);
-            let heads = t.regions.heads;
-            let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
             t.leave_if_gap_or_edge_values(start, bytes, slow);
             let after = (side == Side::After) != t.mutated(Mutation::SplicesOnTheOtherSide);
-            let at = match if after { Side::After } else { Side::Before } {
-                Side::After => t.b.ins().iadd_imm_s(at, 4),
-                Side::Before => t.b.ins().select(at, at, bytes),
+            // The slot behind which x shall stand: that before the first is the last.
+            let (here, at) = if after {
+                (t.lanes_with(&lanes, a), at)
+            } else {
+                let behind = t.b.ins().select(at, at, bytes);
+                let at = t.b.ins().iadd_imm_s(behind, -4);
+                (t.lanes_at(lanes.len(), at), at)
             };
-            // Lanes behind `at` take what stands before them, `at` takes x.
-            let fours: Vec<(u32, Value, Value)> = fours(width)
-                .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&lanes, i64::from(first) - 1)))
-                .collect();
-            let place = t.lanes_of_offset(at);
+            // With x in its place, all lanes behind it take what stands before them. So does what lies behind the ring.
             let new = t.b.ins().splat(types::I32X4, x);
-            let start = t.with_room(head, capacity, len, start, width, slow);
+            let put: Vec<Value> =
+                lanes.iter().zip(here).map(|(&lane, here)| t.b.ins().bitselect(here, new, lane)).collect();
+            let fours: Vec<(u32, Value, Value)> = fours(width)
+                .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&put, i64::from(first) - 1)))
+                .collect();
+            t.leave_unless_within(width, 1, capacity, len, slow);
             for (first, lane, shifted) in fours {
-                let offsets = t.lane_offsets(first);
-                let behind = t.b.ins().icmp(IntCC::SignedGreaterThan, offsets, place);
+                let behind = t.lanes_behind(at, first);
                 let result = t.b.ins().bitselect(behind, shifted, lane);
-                let here = t.b.ins().icmp(IntCC::Equal, place, offsets);
-                let result = t.b.ins().bitselect(here, new, result);
                 t.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
             }
             let len = t.b.ins().iadd_imm_s(len, 1);
@@ -197,32 +207,37 @@ impl<'p> Translator<'_, 'p> {
         });
     }
 
-    /// Where a ring goes that becomes longer by one, to at most `width` slots, of which so many are then written: it stays
-    /// at `start` if there is room for them, else, if it is full, it gets a fresh run of slots.
-    fn with_room(&mut self, head: Value, capacity: Value, len: Value, start: Value, width: i64, slow: Block) -> Value {
-        let fresh = self.b.create_block();
-        self.b.set_cold_block(fresh);
-        let (store, to) = self.block_with(&[types::I64]);
-        let needed = if self.mutated(Mutation::IgnoresRoom) { 0 } else { width };
-        let fits = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThanOrEqual, capacity, needed);
-        self.b.ins().brif(fits, store, &[start.into()], fresh, &[]);
-        self.continue_in(fresh);
-        let tight = self.b.ins().icmp(IntCC::NotEqual, capacity, len);
-        self.leave_if(tight, slow);
-        let twice = self.b.ins().ishl_imm_u(capacity, 1);
-        let least = self.int32(self.unit.facts.fresh_capacity);
-        let room = self.b.ins().umax(twice, least);
-        let start = self.take_slots(head, room, slow);
-        // The ring itself fills the first lanes.
-        let flags = unaligned(self.regions.slots);
-        // Loaded, for Cranelift would keep a constant on the stack, for all the rounds that have no need of it.
-        let gaps = self.b.ins().load(types::I32X4, unaligned(self.regions.context), self.context, context::NOTHING);
-        for k in width / 4..width / 2 {
-            self.b.ins().store(flags, gaps, start, 16 * k as i32);
+    /// Goes on, in a block of its own, by the room that a ring has, with how many slots are edited at once: it has room for so
+    /// many, but for the fewest. Rings keep their room while their lengths change, so that which way this goes is foreseen
+    /// by the machine.
+    fn by_room(&mut self, capacity: Value, mut work: impl FnMut(&mut Self, i64)) {
+        let widths = self.edit_widths();
+        for (i, &width) in widths.iter().enumerate() {
+            if let Some(&next) = widths.get(i + 1) {
+                let [here, larger] = [(); 2].map(|()| self.b.create_block());
+                let fewer = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, next);
+                self.b.ins().brif(fewer, here, &[], larger, &[]);
+                self.continue_in(here);
+                work(self, width);
+                self.continue_in(larger);
+            } else {
+                work(self, width);
+            }
         }
-        self.jump_with(store, &[start]);
-        self.continue_in(store);
-        to[0]
+    }
+
+    /// Goes to `slow` where a ring has no room for `width` slots, as [`Translator::by_room`] gives it, or is longer than that
+    /// but for `less`.
+    fn leave_unless_within(&mut self, width: i64, less: i64, capacity: Value, len: Value, slow: Block) {
+        if self.mutated(Mutation::IgnoresRoom) {
+            return;
+        }
+        if self.edit_widths().first() == Some(&width) {
+            let tight = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, width);
+            self.leave_if(tight, slow);
+        }
+        let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, len, width - less);
+        self.leave_if(long, slow);
     }
 
     /// Gives a ring a fresh run of slots, which the caller writes all: the runtime takes slots in use for written. The
@@ -242,14 +257,22 @@ impl<'p> Translator<'_, 'p> {
         self.slot_address(offset, false)
     }
 
-    /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings.
+    /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings: if any ring of the mesh
+    /// may, this one is asked.
     fn leave_if_gap_or_edge_values(&mut self, start: Value, bytes: Value, slow: Block) {
+        let may = self.load_context(types::I64, context::GAPS_OR_EDGE_VALUES);
+        let [ask, next] = [(); 2].map(|()| self.b.create_block());
+        self.b.set_cold_block(ask);
+        self.b.ins().brif(may, ask, &[], next, &[]);
+        self.continue_in(ask);
         let end = self.b.ins().iadd(start, bytes);
         let last = self.b.ins().uload32(self.regions.slots, end, -4);
         let last = self.b.ins().iadd_imm_s(last, -1);
         let limit = self.load_context(types::I64, context::EDIT_LIMIT);
         let bad = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, last, limit);
-        self.leave_if(bad, slow);
+        let to = if self.mutated(Mutation::IgnoresGaps) { next } else { slow };
+        self.b.ins().brif(bad, to, &[], next, &[]);
+        self.continue_in(next);
     }
 
     pub(super) fn erase(&mut self, item: &'p Item, from: &'p Ring) -> Translated<()> {
@@ -271,46 +294,54 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Takes a vertex out of a ring without gaps.
-    fn erase_in_place(&mut self, x: Value, v: Value, Ways { slow, done }: Ways) {
-        let Bounds { start, len, flags } = self.bounds(v, false);
+    fn erase_in_place(&mut self, x: Value, v: Value, ways: Ways) {
+        let ring = self.bounds(v, false);
+        if self.unit.facts.grows {
+            let (head, heads) = (self.head(v, false), self.regions.heads);
+            let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+            self.by_room(capacity, |t, width| t.erase_lanes(x, v, ring, width, Some(capacity), ways));
+        } else {
+            self.by_width(self.widths(), ring.len, 0, ways.slow, |t, width| {
+                t.erase_lanes(x, v, ring, width, None, ways);
+            });
+        }
+    }
+
+    /// Takes a vertex out of a ring that is edited by so many slots: if `capacity` is given, as [`Translator::by_room`] gives
+    /// them, else it has no more, and slots behind it are another's.
+    fn erase_lanes(&mut self, x: Value, v: Value, ring: Bounds, width: i64, capacity: Option<Value>, ways: Ways) {
+        let Bounds { start, len, flags } = ring;
         let bytes = self.bytes_of(len);
-        let has_room = self.unit.facts.grows;
-        let widths = if has_room { self.edit_widths() } else { self.widths() };
-        self.by_width(widths, len, 0, slow, |t, width| {
-            let lanes = t.lanes(start, (width + 3) & !3, flags);
-            let at = t.place_to_edit(&lanes, x, v, bytes, done);
-            t.leave_if_gap_or_edge_values(start, bytes, slow);
-            let head = t.head(v, false);
-            let heads = t.regions.heads;
-            if has_room {
-                let capacity = t.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
-                let tight = t.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, width);
-                t.leave_if(tight, slow);
+        let lanes = self.lanes(start, (width + 3) & !3, flags);
+        let at = self.place_to_edit(&lanes, x, v, bytes, ways);
+        self.leave_if_gap_or_edge_values(start, bytes, ways.slow);
+        if let Some(capacity) = capacity {
+            self.leave_unless_within(width, 0, capacity, len, ways.slow);
+        }
+        // Lanes from `at` on take what stands behind them.
+        let fours: Vec<(u32, Value, Value)> = fours(width)
+            .map(|first| (first, self.four(&lanes, i64::from(first)), self.four(&lanes, i64::from(first) + 1)))
+            .collect();
+        let before = self.b.ins().iadd_imm_s(at, -4);
+        let last = self.b.ins().iadd_imm_s(bytes, -4);
+        let end = if capacity.is_none() { Some(self.lanes_of_offset(last)) } else { None };
+        for (first, lane, shifted) in fours {
+            let from = self.lanes_behind(before, first);
+            let mut result = self.b.ins().bitselect(from, shifted, lane);
+            if let Some(end) = end {
+                // Those behind the ring get back what they hold.
+                let offsets = self.lane_offsets(first);
+                let within = self.b.ins().icmp(IntCC::SignedGreaterThan, end, offsets);
+                result = self.b.ins().bitselect(within, result, lane);
             }
-            // Lanes from `at` on take what stands behind them.
-            let fours: Vec<(u32, Value, Value)> = fours(width)
-                .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&lanes, i64::from(first) + 1)))
-                .collect();
-            let before = t.b.ins().iadd_imm_s(at, -4);
-            let last = t.b.ins().iadd_imm_s(bytes, -4);
-            let [before, last] = [before, last].map(|x| t.lanes_of_offset(x));
-            for (first, lane, shifted) in fours {
-                let offsets = t.lane_offsets(first);
-                let from = t.b.ins().icmp(IntCC::SignedGreaterThan, offsets, before);
-                let mut result = t.b.ins().bitselect(from, shifted, lane);
-                if !has_room {
-                    // Those behind the ring, which are another's, get back what they hold.
-                    let within = t.b.ins().icmp(IntCC::SignedGreaterThan, last, offsets);
-                    result = t.b.ins().bitselect(within, result, lane);
-                }
-                t.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
-            }
-            let len = t.b.ins().iadd_imm_s(len, -1);
-            if !t.mutated(Mutation::ErasesNothing) {
-                t.b.ins().store(heads, len, head, context::HEAD_LEN);
-            }
-            t.b.ins().jump(done, &[]);
-        });
+            self.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
+        }
+        let len = self.b.ins().iadd_imm_s(len, -1);
+        if !self.mutated(Mutation::ErasesNothing) {
+            let (head, heads) = (self.head(v, false), self.regions.heads);
+            self.b.ins().store(heads, len, head, context::HEAD_LEN);
+        }
+        self.b.ins().jump(ways.done, &[]);
     }
 
     pub(super) fn note_put(&mut self, x: Option<Value>, v: Value) {

@@ -17,6 +17,9 @@ impl Translator<'_, '_> {
 
     pub(super) fn leave_if(&mut self, bad: Value, to: Block) {
         let next = self.b.create_block();
+        if self.b.current_block().is_some_and(|block| self.b.func.layout.is_cold(block)) {
+            self.b.set_cold_block(next);
+        }
         self.b.ins().brif(bad, to, &[], next, &[]);
         self.b.switch_to_block(next);
         self.b.seal_block(next);

@@ -176,6 +176,12 @@ impl<'p> Translator<'_, 'p> {
     fn short_circuit(&mut self, a: &'p Expr, b: &'p Expr, decides: bool) -> Translated<Val> {
         let first = self.condition(a)?;
         let decides = decides != self.mutated(Mutation::AndIsOr);
+        if compares_only(b) {
+            // It can be computed for nothing, and two ways that are hard to foresee become one.
+            let second = self.condition(b)?;
+            let both = if decides { self.b.ins().bor(first, second) } else { self.b.ins().band(first, second) };
+            return Ok(Val::One(both));
+        }
         let more = self.b.create_block();
         let (done, result) = self.block_with(&[types::I8]);
         if decides {
@@ -393,5 +399,20 @@ fn float(c: Comparison) -> FloatCC {
         Comparison::GreaterEqual => FloatCC::GreaterThanOrEqual,
         Comparison::Equal => FloatCC::Equal,
         Comparison::NotEqual => FloatCC::NotEqual,
+    }
+}
+
+/// Whether a condition compares variables and constants and nothing else: so it is cheap, and nothing goes wrong in it.
+fn compares_only(e: &Expr) -> bool {
+    let is_at_hand = |e: &Expr| matches!(e.kind, ExprKind::Local(_) | ExprKind::Constant(_));
+    match &e.kind {
+        ExprKind::Binary(op, a, b) => {
+            use Binary::{CompareBool, CompareDouble, CompareInt, CompareVertex};
+            let compares = matches!(op, CompareBool(_) | CompareDouble(_) | CompareInt(_) | CompareVertex(_));
+            compares && is_at_hand(a) && is_at_hand(b)
+        }
+        ExprKind::Unary(Unary::Not, a) => compares_only(a),
+        ExprKind::And(a, b) | ExprKind::Or(a, b) => compares_only(a) && compares_only(b),
+        _ => is_at_hand(e),
     }
 }

@@ -15,8 +15,7 @@ impl Translator<'_, '_> {
 
     /// Bytes from the first lane to the first one that holds `x`, i64; at least all their bytes if none does.
     pub(super) fn first_match(&mut self, lanes: &[Value], x: Value) -> Value {
-        let x = self.b.ins().splat(types::I32X4, x);
-        let mut equal: Vec<Value> = lanes.iter().map(|&lane| self.b.ins().icmp(IntCC::Equal, x, lane)).collect();
+        let mut equal = self.lanes_with(lanes, x);
         // How many bits stand for a slot becomes how many bytes: 4 = 1 << 2 = 2 << 1.
         let mut shift = 2;
         if equal.len() > 1 {
@@ -50,6 +49,34 @@ impl Translator<'_, '_> {
     pub(super) fn lane_offsets(&mut self, first: u32) -> Value {
         let (flags, context) = (unaligned(self.regions.context), self.context);
         self.b.ins().load(types::I32X4, flags, context, context::OFFSETS + 4 * first as i32)
+    }
+
+    /// Which lanes hold `x`.
+    pub(super) fn lanes_with(&mut self, lanes: &[Value], x: Value) -> Vec<Value> {
+        let x = self.b.ins().splat(types::I32X4, x);
+        lanes.iter().map(|&lane| self.b.ins().icmp(IntCC::Equal, x, lane)).collect()
+    }
+
+    /// Which of the slots of so many lanes stands so many bytes from the first.
+    pub(super) fn lanes_at(&mut self, lanes: usize, at: Value) -> Vec<Value> {
+        let at = self.lanes_of_offset(at);
+        (0..lanes)
+            .map(|k| {
+                let offsets = self.lane_offsets(4 * k as u32);
+                self.b.ins().icmp(IntCC::Equal, at, offsets)
+            })
+            .collect()
+    }
+
+    /// Which of the four slots from `first` on stand behind the one that stands so many bytes from the first of all.
+    pub(super) fn lanes_behind(&mut self, at: Value, first: u32) -> Value {
+        let base = self.b.ins().isub(self.context, at);
+        let flags = unaligned(self.regions.context);
+        let behind = context::BEHIND + 4 * (15 + first as i32);
+        let lanes = self.b.ins().load(types::I32X4, flags, base, behind);
+        let zero = self.int32(0);
+        let zeros = self.b.ins().splat(types::I32X4, zero);
+        self.b.ins().icmp(IntCC::SignedLessThan, lanes, zeros)
     }
 
     /// An offset in bytes in all lanes.

@@ -125,7 +125,8 @@ impl<'p> Translator<'_, 'p> {
         let slots = unaligned(self.regions.slots);
         let zero = self.int32(0);
         let gaps = self.b.ins().splat(types::I32X4, zero);
-        for k in 0..2 {
+        // As many as the room is at most.
+        for k in 0..self.unit.facts.fresh_capacity.max(8).div_ceil(4) as i32 {
             self.b.ins().store(slots, gaps, taken, 16 * k);
         }
         self.jump_with(store, &[taken]);
