@@ -35,9 +35,10 @@ pub struct LookArguments {
     /// counted from 1. May be repeated.
     #[arg(long, value_name = "NUMBER", value_parser = vertex)]
     ring: Vec<Vertex>,
-    /// How pictures are drawn, words with commas between: faces, edges, vertices, smooth, colors, occlusion, grid, axes,
-    /// dark, transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it out. Or a file such as the
-    /// window saves as style: words and all other options go before what it says.
+    /// How pictures are drawn, words with commas between: faces, edges, vertices, control (the mesh of generation 0 over
+    /// it), smooth, colors, occlusion, grid, axes, dark, transparent, lights, reflection-lines, isophotes; with `no-` in
+    /// front to leave it out. Or a file such as the window saves as style: words and all other options go before what it
+    /// says.
     #[arg(long, value_name = "WORDS|FILE", value_delimiter = ',', value_parser = style::given)]
     style: Vec<style::Given>,
     /// The colour behind pictures in place of paper: white, black, or such as #1c293b. Figures have nothing behind them.
@@ -105,6 +106,8 @@ pub struct Past {
     pub generation: u64,
     /// The last one.
     pub before: Option<Mesh>,
+    /// Generation 0, if this is another one.
+    pub first: Option<Mesh>,
     /// Which vertex of a generation is which of another.
     pub lineage: Lineage,
 }
@@ -154,10 +157,11 @@ impl LookArguments {
 #[derive(Debug, Clone, Copy)]
 pub struct Word(&'static str, bool);
 
-const WORDS: [&str; 13] = [
+const WORDS: [&str; 14] = [
     "faces",
     "edges",
     "vertices",
+    "control",
     "smooth",
     "colors",
     "occlusion",
@@ -189,6 +193,7 @@ impl Word {
             "faces" => style.faces = on,
             "edges" => style.edges = on,
             "vertices" => style.vertices = on,
+            "control" => style.control = on,
             "smooth" => style.smooth = on,
             "colors" => style.colors = on,
             "occlusion" => style.occlusion = on,

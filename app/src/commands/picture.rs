@@ -15,7 +15,7 @@ use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, ImageFormat, RgbaImage};
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::mesh::Mesh;
-use vv::mesh::faces::Faces;
+use vv::mesh::faces::{Faces, faces as find_faces};
 use vv::source::Sources;
 use vv::stop::Stop;
 
@@ -97,7 +97,10 @@ impl<'a> Exhibit<'a> {
         let look::Result { mesh, faces, past } = result;
         let annotations = &look.annotations;
         let never = Stop::new();
-        let Ok(scene) = Scene::new(mesh, faces, None, &never) else {
+        let first = past.first.as_ref().filter(|_| look.style.control);
+        let control = first.and_then(|first| Some((first, find_faces(first, &never).ok()?)));
+        let control = control.as_ref().map(|(first, faces)| (*first, faces));
+        let Ok(scene) = Scene::new(mesh, faces, control, &never) else {
             return Err(Exit::Budget); // not reached: nobody stops it
         };
         let subject = Subject {

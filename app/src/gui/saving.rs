@@ -1,6 +1,6 @@
 //! The dialog that asks how large a picture shall be and what is behind it.
 
-use eframe::egui::{Align, Context, DragValue, Frame, Grid, Id, Key, Layout, Margin, Modal, Ui};
+use eframe::egui::{Align, Context, DragValue, Frame, Grid, Id, Key, Label, Layout, Margin, Modal, RichText, Ui};
 
 use crate::command::Command;
 use crate::preferences::{Background, PictureOptions};
@@ -23,6 +23,10 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
         ui.add_space(8.0);
         let mut options = session.preferences.picture;
         fields(ui, session, &mut options);
+        ui.add_space(8.0);
+        let text =
+            "The name says the format: .png, or .svg, .eps and .pdf, which are figures of lines and areas for paper.";
+        ui.add(Label::new(RichText::new(text).weak()).wrap());
         ui.add_space(12.0);
         ui.horizontal(|ui| {
             save = ui.add(super::widgets::first_choice(ui, "Save…")).clicked();

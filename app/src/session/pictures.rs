@@ -92,6 +92,10 @@ impl Session {
         if let Some(format) = figure::Format::from_extension(&extension) {
             return self.figure_to(path, format);
         }
+        if !extension.eq_ignore_ascii_case("png") {
+            self.say(Severity::Error, "the name of a picture ends in .png, .svg, .eps or .pdf");
+            return;
+        }
         let Some(frame) = self.frame.clone() else { return };
         let options = self.preferences.picture;
         let (size, camera) = (self.picture_size(&options), self.document.camera);

@@ -9,6 +9,7 @@ mod keeping;
 mod masks;
 mod palette;
 mod paths;
+mod pictures;
 mod reach;
 mod subdividing;
 mod timeline;

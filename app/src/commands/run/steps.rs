@@ -63,7 +63,9 @@ impl Run<'_> {
             state.warnings.extend(self.warn(&what, &next.warnings));
             state.past.lineage.add(step, &next.survivors);
             state.past.generation = step;
-            state.past.before = Some(std::mem::replace(&mut state.mesh, next.mesh));
+            let before = std::mem::replace(&mut state.mesh, next.mesh);
+            state.past.first.get_or_insert_with(|| before.clone());
+            state.past.before = Some(before);
             state.timings.steps_s.push(next.step_s);
             state.timings.closing_s.push(next.closing_s);
             see(&mut state)?;
