@@ -10,12 +10,13 @@
 //!
 //! What is hidden is computed in double precision, not looked up in pixels: edges end exactly where a face covers them or
 //! where they pierce one. Approximated is only this: a face with more than three corners that is not flat is the triangles
-//! that the window shows too; and where two faces pierce each other, no line is drawn along their intersection.
+//! that the window shows too.
 
 mod boxes;
 mod build;
 mod chain;
 mod covered;
+mod crossing;
 mod eps;
 mod fill;
 mod hidden;
@@ -103,6 +104,8 @@ pub enum Class {
     Control,
     /// Between a face seen from outside and one seen from inside.
     Outline,
+    /// Where faces pierce each other.
+    Intersection,
     /// With a face on one side only, or none; or where the mesh is cut.
     Boundary,
     /// Whose property `sharpness` is more than 0.
@@ -111,7 +114,8 @@ pub enum Class {
 
 impl Class {
     /// All of them, in the order in which they are drawn.
-    pub const ALL: [Self; 6] = [Self::Hidden, Self::Inner, Self::Control, Self::Outline, Self::Boundary, Self::Crease];
+    pub const ALL: [Self; 7] =
+        [Self::Hidden, Self::Inner, Self::Control, Self::Outline, Self::Intersection, Self::Boundary, Self::Crease];
 
     /// The word for it.
     #[must_use]
@@ -121,6 +125,7 @@ impl Class {
             Self::Inner => "inner",
             Self::Control => "control",
             Self::Outline => "outline",
+            Self::Intersection => "intersection",
             Self::Boundary => "boundary",
             Self::Crease => "crease",
         }
@@ -204,7 +209,7 @@ impl Settings {
             Class::Hidden => Line { dash: Dash::Dashed, ..line(0.3, [0x77; 3]) },
             Class::Inner => line(0.35, [0; 3]),
             Class::Control => line(0.5, [0xc8, 0x1e, 0x5a]),
-            Class::Outline | Class::Boundary => line(0.8, [0; 3]),
+            Class::Outline | Class::Intersection | Class::Boundary => line(0.8, [0; 3]),
             Class::Crease => line(1.2, [0; 3]),
         }
     }
@@ -272,11 +277,14 @@ pub fn sketch(
     let Subject { scene, mesh, .. } = subject;
     let bounds = scene.bounds(&Style { control: false, ..*style });
     let space = Space::new(camera, aspect, &style.cut, bounds);
-    let surface = Surface::new(scene, mesh, &space, style.control);
+    let mut surface = Surface::new(scene, mesh, &space, style.control);
     stop.check()?;
     let hider = Hider::new(&surface.triangles);
     let settings = &effective(settings, style);
     let wanted = |class: Class| settings.lines[class as usize].is_some();
+    if wanted(Class::Intersection) || wanted(Class::Hidden) {
+        surface.edges.extend(crossing::crossings(&surface.triangles, stop)?);
+    }
     let edges: Vec<&Edge> = surface.edges.iter().filter(|edge| wanted(edge.class) || wanted(Class::Hidden)).collect();
     let hidden: Vec<Vec<Interval>> =
         edges.par_iter().map(|edge| if stop.check().is_ok() { hider.hidden(edge) } else { Vec::new() }).collect();

@@ -55,9 +55,9 @@ pub struct LookArguments {
     /// 120x160mm, of several side by side 160mm.
     #[arg(long, value_name = "W[xH]mm", value_parser = paper::page)]
     page: Option<Page>,
-    /// How figures draw lines that are outline, boundary, crease, inner, control or hidden: width in points, colour, and
-    /// solid, dashed or dotted, in any order, such as inner=0.3,#888 or hidden=dotted; `hidden` draws them, `inner=none`
-    /// does not. May be repeated.
+    /// How figures draw lines that are outline, boundary, crease, intersection (of faces that pierce each other), inner,
+    /// control or hidden: width in points, colour, and solid, dashed or dotted, in any order, such as inner=0.3,#888 or
+    /// hidden=dotted; `hidden` draws them, `inner=none` does not. May be repeated.
     #[arg(long, value_name = "CLASS[=LOOK]", value_parser = paper::line)]
     line: Vec<(Class, Option<Line>)>,
     /// Make lines of figures lighter the farther away they are, up to this much: from 0 to 1, which is white. Default,

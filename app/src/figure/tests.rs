@@ -375,6 +375,32 @@ fn faces_are_painted_from_back_to_front_and_cut_where_they_pierce_each_other() {
 }
 
 #[test]
+fn faces_that_pierce_each_other_meet_in_a_line() {
+    // A square through another, half of the line behind a third.
+    let squares = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -.5 0 -1\nv .5 0 -1\nv .5 0 1\nv -.5 0 1\n\
+                   v 0 -.3 2\nv 3 -.3 2\nv 3 .3 2\nv 0 .3 2\nf 1 2 3 4\nf 5 6 7 8\nf 9 10 11 12\n";
+    let case = Case::new(squares);
+    let Ok(Viewpoint::From { side, up, .. }) = parse("front") else { panic!() };
+    let camera = case.camera(true).from_side(side, up);
+    let camera = case.scene.fit(Camera { orthographic: true, ..camera }, &Style::default(), 1.0);
+    let drawing = case.draw_from(&camera, &Style::default(), &Settings::default()).unwrap();
+    let lines = drawing.layers.iter().find_map(|layer| match layer {
+        Layer::Lines { name: "intersection", paths, .. } => Some(paths),
+        _ => None,
+    });
+    let [path] = &lines.unwrap()[..] else { panic!("{lines:?}") };
+    // Four wide, so that a half is an eighth.
+    let length = path.points[1].minus(path.points[0]).length() / f64::from(drawing.size.x);
+    assert!(path.points.len() == 2 && (length - 0.125).abs() < 2e-3, "{length} {path:?}");
+    // Tori that are only interlocked have none, those that pierce each other have closed ones.
+    let lines = |apart: f64| {
+        let drawing = Case::new(&tori(apart)).draw(&with_hidden());
+        drawing.layers.iter().any(|layer| matches!(layer, Layer::Lines { name: "intersection", .. }))
+    };
+    assert!(!lines(1.0) && lines(0.55));
+}
+
+#[test]
 fn faces_that_others_cover_are_not_painted() {
     let painted = |obj: &str| {
         let case = Case::new(obj);

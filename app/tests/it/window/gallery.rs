@@ -1,10 +1,14 @@
 //! The gallery, saving pictures, and preferences.
 
 use super::*;
+use app::annotate::Label;
+use app::command::Inspect;
 use app::gallery::EXHIBITS;
+use app::inspect::selection::Item;
 use app::preferences::{Background, PictureOptions, Preferences, Start};
 use app::session::{Dialog, Purpose};
 use app::store::Store;
+use vv::mesh::Vertex;
 
 fn open_gallery(window: &mut Harness<'static, App>) {
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);
@@ -202,4 +206,35 @@ fn a_picture_is_saved_in_the_size_and_on_the_background_one_asks_for() {
         assert_eq!(image.get_pixel(45, 30).0[3], 255);
         window.state_mut().apply(Command::CloseDialog);
     }
+}
+
+#[test]
+fn a_saved_picture_has_the_labels_and_the_ring_that_are_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = octahedron();
+    let save = |window: &mut Harness<'static, App>, name: &str| {
+        let path = folder.path().join(name);
+        window.state_mut().session_mut().chosen(Purpose::SavePicture, path.clone());
+        until(window, "it is saved", |_| path.exists());
+        path
+    };
+    let written = |path: std::path::PathBuf| {
+        let text = std::fs::read_to_string(path).unwrap();
+        text.split("aria-label=\"").skip(1).map(|t| t.split('"').next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let plain = save(&mut window, "plain.png");
+    assert!(written(save(&mut window, "plain.svg")).is_empty());
+    window.state_mut().apply(Command::LabelBy(Label::Vertices));
+    window.state_mut().apply(Command::Axes);
+    settle(&mut window);
+    let labels = written(save(&mut window, "labels.svg"));
+    assert!(labels.contains(&"v1".to_owned()) && labels.ends_with(&["x", "y", "z"].map(str::to_owned)), "{labels:?}");
+    let [plain, labelled] = [plain, save(&mut window, "labels.png")].map(|p| image::open(p).unwrap().into_rgba8());
+    let changed = plain.pixels().zip(labelled.pixels()).filter(|(a, b)| a != b).count();
+    assert!(changed > 200, "{changed} pixels");
+    let seen = Vertex::from_index(labels[0][1..].parse::<usize>().unwrap() - 1).unwrap();
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(seen))));
+    window.run_steps(4);
+    let ring = written(save(&mut window, "ring.svg"));
+    assert!(ring.iter().any(|text| text.contains(" – v")), "{ring:?}");
 }
