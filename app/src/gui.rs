@@ -242,13 +242,17 @@ impl App {
                 .size_range(200.0..=(width - inspector - VIEWPORT).max(220.0))
                 .show(ui, |ui| {
                     let height = ui.available_height();
+                    let mut below = None;
                     if session.panels.messages && session.panels.program {
                         egui::Panel::bottom("messages")
                             .frame(theme::panel(ui))
                             .resizable(true)
                             .default_size((height * 0.24).clamp(90.0, 260.0))
                             .size_range(60.0..=(height * 0.7).max(80.0))
-                            .show(ui, |ui| self.messages.show(ui, session, commands));
+                            .show(ui, |ui| {
+                                below = Some(ui.available_rect_before_wrap());
+                                ui.take_available_space();
+                            });
                     } else if session.panels.messages {
                         let frame = theme::panel(ui);
                         egui::CentralPanel::default()
@@ -260,6 +264,14 @@ impl App {
                         egui::CentralPanel::default().frame(frame).show(ui, |ui| {
                             let editor = self.editors.of(ui.ctx(), session);
                             editor.show(ui, session, reveal, actions, commands);
+                        });
+                    }
+                    // Made after what stands above it, as it is read.
+                    if let Some(rect) = below {
+                        let inside = egui::UiBuilder::new().id_salt("messages").max_rect(rect);
+                        ui.scope_builder(inside, |ui| {
+                            ui.set_clip_rect(rect.expand2(egui::vec2(2.0, 0.0)).intersect(ui.clip_rect()));
+                            self.messages.show(ui, session, commands);
                         });
                     }
                 });
@@ -388,6 +400,7 @@ impl eframe::App for App {
         let _span = trace::span("window: panels and picture");
         let mut commands = Vec::new();
         self.keep_focus(ui.ctx());
+        self.editors.current_mut().lead_on(ui.ctx());
         if self.session.dialog.is_none() {
             keys::take(ui.ctx(), &self.session, self.editors.current().takes_escape(ui.ctx()), &mut commands);
         }
@@ -401,6 +414,9 @@ impl eframe::App for App {
         if self.session.dialog.is_some() {
             let _span = trace::span("window: dialog");
             dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
+        }
+        if !editor::has_keys(ui.ctx()) {
+            theme::focus_ring(ui.ctx());
         }
         clicks::take_pointed(ui.ctx(), &self.session, &mut commands);
         mask::take_pointed(ui.ctx(), &self.session, &mut commands);

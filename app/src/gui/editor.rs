@@ -13,11 +13,12 @@ use std::sync::Arc;
 use eframe::egui::text::{CCursor, CCursorRange, LayoutJob};
 use eframe::egui::text_edit::TextEditOutput;
 use eframe::egui::{
-    self, Align, Color32, Context, EventFilter, FontId, Galley, Id, Layout, Margin, Rect, RichText, ScrollArea, Shape,
+    self, Align, Color32, Context, EventFilter, FontId, Galley, Id, Margin, Rect, RichText, ScrollArea, Shape,
     TextBuffer, TextEdit, TextFormat, TextStyle, Ui, Vec2b, pos2, vec2,
 };
 use vv::assist::{Assist, number_at};
 
+use super::widgets::sides;
 use super::{messages, theme};
 use crate::command::{Command, TextAction};
 use crate::session::{Place, Problem, Reveal, Session};
@@ -57,6 +58,8 @@ pub struct Editor {
     reveal: Option<Reveal>,
     /// Tells documents apart.
     document: u64,
+    /// Whether Escape took the keys from it, and nobody has had them since.
+    left: bool,
 }
 
 fn id() -> Id {
@@ -126,6 +129,16 @@ impl Editor {
         self.document = document;
         self.popup = None;
         self.select(ctx, self.selected.clone());
+    }
+
+    /// In the text Tab means itself. Escape leaves it; then Tab goes on from here. For the beginning of a pass.
+    pub fn lead_on(&mut self, ctx: &Context) {
+        let focused = ctx.memory(|m| m.focused());
+        self.left &= focused.is_none();
+        if self.left && ctx.input(|i| i.key_pressed(egui::Key::Tab)) {
+            self.left = false;
+            ctx.memory_mut(|m| m.request_focus(id()));
+        }
     }
 
     /// Whether Escape closes something here.
@@ -253,6 +266,7 @@ impl Editor {
                 }
             }
         });
+        self.left |= output.response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape));
         let changed = output.response.changed();
         if changed {
             commands.push(Command::Edit(self.buffer.as_str().into()));
@@ -450,12 +464,16 @@ fn header(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     frame.show(ui, |ui| {
         ui.horizontal(|ui| {
             let program = &session.document.program;
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let response =
-                    ui.add_enabled(program.is_modified() || program.path.is_none(), egui::Button::new("Save"));
-                let response = response.accessible_name("Save the program");
-                if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &Command::Save)).clicked() {
-                    commands.push(Command::Save);
+            let name = |ui: &mut Ui| {
+                let name = ui.add(egui::Label::new(RichText::new(&program.name).strong()).truncate());
+                name.on_hover_text(match &program.path {
+                    Some(path) => path.display().to_string(),
+                    None => "ships with vv; save it to make it yours".to_owned(),
+                });
+            };
+            sides(ui, "program", name, |ui| {
+                if program.is_modified() {
+                    ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
                 }
                 if session.text_waits() {
                     let response = ui.add(egui::Button::new("Run").small()).accessible_name("Run the changed text");
@@ -463,16 +481,12 @@ fn header(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                         commands.push(Command::Run);
                     }
                 }
-                if program.is_modified() {
-                    ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
+                let response =
+                    ui.add_enabled(program.is_modified() || program.path.is_none(), egui::Button::new("Save"));
+                let response = response.accessible_name("Save the program");
+                if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &Command::Save)).clicked() {
+                    commands.push(Command::Save);
                 }
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let name = ui.add(egui::Label::new(RichText::new(&program.name).strong()).truncate());
-                    name.on_hover_text(match &program.path {
-                        Some(path) => path.display().to_string(),
-                        None => "ships with vv; save it to make it yours".to_owned(),
-                    });
-                });
             });
         });
     });
@@ -489,12 +503,11 @@ fn conflict(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let frame = egui::Frame::NONE.fill(color.gamma_multiply(0.16)).inner_margin(Margin::symmetric(12, 5));
     frame.show(ui, |ui| {
         ui.horizontal(|ui| {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                super::widgets::button(ui, session, commands, Command::KeepMine);
+            let text = RichText::new("The file has changed on disk.").color(color);
+            let text = |ui: &mut Ui| _ = ui.add(egui::Label::new(text).truncate());
+            sides(ui, "conflict", text, |ui| {
                 super::widgets::button(ui, session, commands, Command::TakeFromDisk);
-                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(egui::Label::new(RichText::new("The file has changed on disk.").color(color)).truncate());
-                });
+                super::widgets::button(ui, session, commands, Command::KeepMine);
             });
         });
     });

@@ -26,6 +26,11 @@ impl Editors {
         &self.current
     }
 
+    /// The same, to be changed.
+    pub fn current_mut(&mut self) -> &mut Editor {
+        &mut self.current
+    }
+
     /// The same, for the panel that shows it; after a switch with its cursor where it was.
     pub fn of(&mut self, ctx: &Context, session: &Session) -> &mut Editor {
         let document = session.id();

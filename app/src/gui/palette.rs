@@ -170,7 +170,7 @@ fn row(ui: &mut Ui, session: &Session, entry: &Entry, matched: &Match, selected:
     let (mut text, mut weak) = (visuals.text_color(), visuals.weak_text_color());
     if selected {
         ui.painter().rect_filled(rect, visuals.menu_corner_radius, visuals.selection.bg_fill);
-        (text, weak) = (visuals.selection.stroke.color, visuals.selection.stroke.color.gamma_multiply(0.8));
+        (text, weak) = (visuals.selection.stroke.color, visuals.selection.stroke.color);
     } else if response.hovered() {
         ui.painter().rect_filled(rect, visuals.menu_corner_radius, visuals.widgets.hovered.weak_bg_fill);
     }

@@ -1,8 +1,8 @@
 //! Colours, fonts and distances.
 
 use eframe::egui::{
-    Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Margin, Stroke, Style, TextStyle,
-    Theme, Ui, Visuals, vec2,
+    Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Margin, Stroke, StrokeKind, Style,
+    TextStyle, Theme, Ui, Visuals, vec2,
 };
 use vv::diagnostic::Severity;
 use vv::syntax::TokenClass;
@@ -84,19 +84,19 @@ fn dark() -> Visuals {
     v.extreme_bg_color = Color32::from_rgb(0x17, 0x19, 0x1d);
     v.faint_bg_color = Color32::from_rgb(0x2a, 0x2e, 0x35);
     v.widgets.noninteractive.bg_stroke = Stroke::new(1.0, Color32::from_rgb(0x36, 0x3b, 0x44));
-    v.widgets.noninteractive.fg_stroke = Stroke::new(1.0, Color32::from_rgb(0xc4, 0xca, 0xd4));
+    v.widgets.noninteractive.fg_stroke = Stroke::new(1.0, Color32::from_rgb(0xd0, 0xd6, 0xdf));
     v.widgets.inactive.weak_bg_fill = Color32::from_rgb(0x33, 0x38, 0x41);
     v.widgets.inactive.bg_fill = Color32::from_rgb(0x3a, 0x40, 0x4a);
     v.widgets.inactive.fg_stroke = Stroke::new(1.0, Color32::from_rgb(0xd6, 0xdb, 0xe3));
-    v.widgets.hovered.weak_bg_fill = Color32::from_rgb(0x40, 0x47, 0x52);
+    v.widgets.hovered.weak_bg_fill = Color32::from_rgb(0x3a, 0x40, 0x4a);
     v.widgets.hovered.bg_stroke = Stroke::new(1.0, Color32::from_rgb(0x5b, 0x64, 0x73));
     v.widgets.open.weak_bg_fill = Color32::from_rgb(0x2f, 0x34, 0x3c);
     v.selection.bg_fill = Color32::from_rgb(0x2b, 0x5a, 0x9e);
     v.selection.stroke = Stroke::new(1.0, Color32::from_rgb(0xe6, 0xf0, 0xff));
-    v.hyperlink_color = Color32::from_rgb(0x6c, 0xa8, 0xff);
-    v.error_fg_color = Color32::from_rgb(0xff, 0x6b, 0x6b);
+    v.hyperlink_color = Color32::from_rgb(0x74, 0xae, 0xff);
+    v.error_fg_color = Color32::from_rgb(0xff, 0x7a, 0x7a);
     v.warn_fg_color = Color32::from_rgb(0xf0, 0xb4, 0x4c);
-    v.weak_text_color = Some(Color32::from_rgb(0x8e, 0x97, 0xa5));
+    v.weak_text_color = Some(Color32::from_rgb(0xa5, 0xae, 0xbb));
     v
 }
 
@@ -113,18 +113,32 @@ fn light() -> Visuals {
     v.widgets.inactive.weak_bg_fill = Color32::from_rgb(0xe4, 0xe7, 0xec);
     v.widgets.inactive.bg_fill = Color32::from_rgb(0xd3, 0xd8, 0xdf);
     v.widgets.inactive.fg_stroke = Stroke::new(1.0, Color32::from_rgb(0x2b, 0x31, 0x3b));
-    v.widgets.hovered.weak_bg_fill = Color32::from_rgb(0xd8, 0xdd, 0xe4);
+    v.widgets.hovered.weak_bg_fill = Color32::from_rgb(0xdd, 0xe1, 0xe8);
     v.widgets.hovered.bg_stroke = Stroke::new(1.0, Color32::from_rgb(0x9a, 0xa4, 0xb2));
     v.widgets.open.weak_bg_fill = Color32::from_rgb(0xe4, 0xe7, 0xec);
     // White on white would hide where one may type.
     v.text_edit_bg_color = Some(Color32::from_rgb(0xec, 0xee, 0xf2));
     v.selection.bg_fill = Color32::from_rgb(0xb8, 0xd6, 0xff);
     v.selection.stroke = Stroke::new(1.0, Color32::from_rgb(0x0b, 0x3d, 0x91));
-    v.hyperlink_color = Color32::from_rgb(0x1f, 0x62, 0xc4);
-    v.error_fg_color = Color32::from_rgb(0xc6, 0x28, 0x28);
-    v.warn_fg_color = Color32::from_rgb(0x96, 0x5a, 0x00);
-    v.weak_text_color = Some(Color32::from_rgb(0x6a, 0x73, 0x80));
+    v.hyperlink_color = Color32::from_rgb(0x1a, 0x5a, 0xb8);
+    v.error_fg_color = Color32::from_rgb(0xbe, 0x22, 0x22);
+    v.warn_fg_color = Color32::from_rgb(0x8a, 0x52, 0x00);
+    v.weak_text_color = Some(Color32::from_rgb(0x58, 0x61, 0x6e));
     v
+}
+
+/// Shows which part has the keys, around whatever it is; for the end of a pass.
+pub fn focus_ring(ctx: &Context) {
+    let Some(response) = ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id)) else { return };
+    let visible = response.rect.intersect(response.interact_rect.expand(2.0));
+    let clip = response.interact_rect.expand(3.0);
+    if visible.is_positive() {
+        let visuals = &ctx.global_style().visuals;
+        let painter = ctx.layer_painter(response.layer_id).with_clip_rect(clip);
+        let ring = response.rect.expand(1.0);
+        painter.rect_stroke(ring, 5.0, Stroke::new(3.0, visuals.panel_fill), StrokeKind::Middle);
+        painter.rect_stroke(ring, 5.0, Stroke::new(1.5, visuals.hyperlink_color), StrokeKind::Middle);
+    }
 }
 
 /// The frame of menu and tool bar.
@@ -171,11 +185,96 @@ pub fn token(dark: bool, class: TokenClass) -> Color32 {
         TokenClass::Name => (0xd5_da_e2, 0x23_28_30),
         TokenClass::Literal => (0xb5_d6_84, 0x3e_6b_08),
         TokenClass::Text => (0xb5_d6_84, 0x3e_6b_08),
-        TokenClass::Comment => (0x7d_87_95, 0x6f_78_85),
+        TokenClass::Comment => (0x8e_98_a6, 0x5f_68_75),
         TokenClass::Punctuation => (0xa2_ab_b8, 0x56_5e_6a),
-        TokenClass::Error => (0xff_6b_6b, 0xc6_28_28),
+        TokenClass::Error => (0xff_7a_7a, 0xbe_22_22),
     };
     let rgb: u32 = if dark { on_dark } else { on_light };
     let [_, r, g, b] = rgb.to_be_bytes();
     Color32::from_rgb(r, g, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How light a colour is, from 0 to 1 (WCAG 2.2, relative luminance).
+    fn luminance(color: Color32) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    }
+
+    /// WCAG 2.2, contrast ratio.
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// What text of 11 points needs to be read without strain.
+    #[track_caller]
+    fn readable(what: &str, ink: Color32, ground: Color32) {
+        let ratio = contrast(ink, ground);
+        assert!(ink.is_opaque() && ratio >= 4.5, "{what}: {ink:?} on {ground:?} has {ratio:.2}");
+    }
+
+    #[test]
+    fn black_on_white_has_the_greatest_contrast() {
+        assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn all_text_can_be_read_on_all_grounds() {
+        for (theme, v) in [("dark", dark()), ("light", light())] {
+            let grounds = [
+                v.panel_fill,
+                v.window_fill,
+                v.extreme_bg_color,
+                v.faint_bg_color,
+                v.widgets.inactive.weak_bg_fill,
+                v.widgets.hovered.weak_bg_fill,
+            ];
+            let inks = [("text", v.text_color()), ("weak", v.weak_text_color()), ("link", v.hyperlink_color)];
+            for (what, ink) in inks {
+                grounds.iter().for_each(|&ground| readable(&format!("{theme} {what}"), ink, ground));
+            }
+            for (what, ink) in [("error", v.error_fg_color), ("warning", v.warn_fg_color)] {
+                grounds[..5].iter().for_each(|&ground| readable(&format!("{theme} {what}"), ink, ground));
+            }
+            readable(&format!("{theme} selection"), v.selection.stroke.color, v.selection.bg_fill);
+            for w in [&v.widgets.inactive, &v.widgets.hovered, &v.widgets.active, &v.widgets.open] {
+                readable(&format!("{theme} button"), w.text_color(), w.weak_bg_fill);
+            }
+            assert!(contrast(v.hyperlink_color, v.panel_fill) >= 3.0, "{theme}: the focus ring is seen");
+        }
+    }
+
+    #[test]
+    fn all_tokens_can_be_read_also_in_the_line_of_the_cursor() {
+        use TokenClass as T;
+        let classes = [
+            T::Keyword,
+            T::Directive,
+            T::Algebra,
+            T::Type,
+            T::Function,
+            T::Property,
+            T::Old,
+            T::Name,
+            T::Literal,
+            T::Text,
+            T::Comment,
+            T::Punctuation,
+            T::Error,
+        ];
+        for (is_dark, v) in [(true, dark()), (false, light())] {
+            for class in classes {
+                for ground in [v.extreme_bg_color, v.faint_bg_color] {
+                    readable(&format!("{class:?}"), token(is_dark, class), ground);
+                }
+            }
+        }
+    }
 }

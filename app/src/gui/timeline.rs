@@ -1,11 +1,10 @@
 //! The generations in a row: where we are, where we have been, what is kept.
 
 use eframe::egui::{
-    self, Align, Align2, Button, ComboBox, CursorIcon, Key, Layout, Rect, Role, Sense, Stroke, TextStyle, Ui,
-    WidgetInfo, pos2, vec2,
+    self, Align2, Button, ComboBox, CursorIcon, Key, Rect, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::widgets::{Icon, grouped, icon_button, seconds, tooltip};
+use super::widgets::{Icon, grouped, icon_button, seconds, sides, tooltip};
 use crate::annotate::Quantity;
 use crate::command::Command;
 use crate::session::{Purpose, Session};
@@ -25,12 +24,15 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         if response.on_hover_ui(|ui| tooltip(ui, &Command::Play)).clicked() {
             commands.push(Command::Play);
         }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if ui.available_width() > 220.0 {
-                speed(ui, session, commands);
+        let mut its = Vec::new();
+        let roomy = ui.available_width() > 220.0;
+        let right = |ui: &mut Ui| {
+            if roomy {
+                speed(ui, session, &mut its);
             }
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| track(ui, session, commands));
-        });
+        };
+        sides(ui, "speed", |ui| track(ui, session, commands), right);
+        commands.append(&mut its);
     });
 }
 

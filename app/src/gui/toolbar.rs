@@ -1,8 +1,8 @@
 //! Generations, the rule, and which panels are open.
 
-use eframe::egui::{Align, ComboBox, DragValue, Layout, Ui};
+use eframe::egui::{ComboBox, DragValue, Ui};
 
-use super::widgets::{Icon, icon_button, named_icon_button, tab, tooltip};
+use super::widgets::{Icon, icon_button, named_icon_button, sides, tab, tooltip};
 use crate::command::{Command, Panel};
 use crate::session::Session;
 
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.add_space(8.0);
         rule(ui, session, commands);
         if ui.available_width() > 240.0 {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| panels(ui, session, commands));
+            sides(ui, "panels", |_| {}, |ui| panels(ui, session, commands));
         }
     });
 }
@@ -62,9 +62,9 @@ fn rule(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     response.response.labelled_by(label.id).on_hover_text("the function that a step applies");
 }
 
-/// Which panels are open; from right to left.
+/// Which panels are open.
 fn panels(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    for (panel, text) in [(Panel::Inspector, "Inspector"), (Panel::Messages, "Messages"), (Panel::Program, "Program")] {
+    for (panel, text) in [(Panel::Program, "Program"), (Panel::Messages, "Messages"), (Panel::Inspector, "Inspector")] {
         let command = Command::Toggle(panel);
         let response = tab(ui, session.panels.is_open(panel), text, command.describe().label);
         if response.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {

@@ -2,7 +2,7 @@
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Button, Color32, KeyboardShortcut, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextFormat,
+    Align, Button, Color32, KeyboardShortcut, Layout, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextFormat,
     TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
@@ -181,6 +181,26 @@ pub fn switch(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, comma
     if response.changed() {
         commands.push(command);
     }
+}
+
+/// Something at the left and something at the right of a row, made in the order in which they are read, as Tab goes.
+pub fn sides(ui: &mut Ui, name: &str, left: impl FnOnce(&mut Ui), right: impl FnOnce(&mut Ui)) {
+    let id = ui.scope_id().with(("sides", name));
+    // As wide as the last time.
+    let known = ui.data(|data| data.get_temp::<f32>(id));
+    ui.horizontal(|ui| {
+        let room = (ui.available_width() - known.unwrap_or(0.0) - ui.spacing().item_spacing.x).max(0.0);
+        let size = vec2(room, ui.spacing().interact_size.y);
+        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(room);
+            left(ui);
+        });
+        let width = ui.horizontal(right).response.rect.width();
+        if known != Some(width) {
+            ui.data_mut(|data| data.insert_temp(id, width));
+            ui.ctx().request_discard("now it is known how wide the right side is");
+        }
+    });
 }
 
 /// A tab or a switch that is on most of the time: marked without shouting.

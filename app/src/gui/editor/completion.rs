@@ -150,7 +150,7 @@ fn row(ui: &Ui, rect: Rect, entry: &Completion, selected: bool) {
     let inner = rect.shrink2(vec2(6.0, 0.0));
     let name = ui.painter().text(inner.left_center(), Align2::LEFT_CENTER, &entry.label, font, color);
     let usage = entry.usage.lines().next().unwrap_or_default().split("    ").next().unwrap_or_default();
-    let weak = if selected { strong.gamma_multiply(0.8) } else { visuals.weak_text_color() };
+    let weak = if selected { strong } else { visuals.weak_text_color() };
     let mut job = LayoutJob::simple_singleline(usage.to_owned(), TextStyle::Small.resolve(ui.style()), weak);
     let left = (name.right() + 14.0).max(inner.left() + 96.0);
     job.wrap = TextWrapping::truncate_at_width((inner.right() - left).max(10.0));

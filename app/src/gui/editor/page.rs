@@ -155,7 +155,7 @@ impl Page<'_> {
             let color = match problem {
                 Some((problem, _)) => theme::severity(ui.visuals(), problem.diagnostic.severity),
                 None if cursor_line == Some(row) => ui.visuals().text_color(),
-                None => ui.visuals().weak_text_color().gamma_multiply(0.75),
+                None => ui.visuals().weak_text_color(),
             };
             if problem.is_some() {
                 painter.circle_filled(pos2(gutter.left() + 9.0, rect.center().y), 3.5, color);

@@ -79,6 +79,83 @@ fn tab_goes_through_all_that_can_be_operated() {
     }
 }
 
+/// What has the keys.
+fn focused(window: &Harness<'static, App>) -> String {
+    let node = window.query_all_by(|node| node.is_focused()).next();
+    node.and_then(|node| node.accesskit_node().label()).unwrap_or_default()
+}
+
+#[test]
+fn tab_goes_in_the_order_in_which_one_reads() {
+    let mut window = octahedron();
+    press(&mut window, Key::Num1);
+    let mut reached = Vec::new();
+    for _ in 0..120 {
+        // Out of the text, in which Tab means itself.
+        if focused(&window) == "Program text" {
+            window.key_press(Key::Escape);
+            window.step();
+        }
+        window.key_press(Key::Tab);
+        window.step();
+        window.step();
+        reached.push(focused(&window));
+    }
+    let first = reached.iter().position(|name| name == "File").unwrap();
+    let order = [
+        "File",
+        "Examples",
+        "Help",
+        "Rewind",
+        "Back",
+        "Step",
+        "Play",
+        "Generation",
+        "Rule",
+        "Program panel",
+        "Messages panel",
+        "Inspector panel",
+        "Save the program",
+        "Program text",
+        "Problems",
+        "Mesh",
+        "Console",
+        "Open…",
+        "Select vertex…",
+        "Faces",
+        "Smooth",
+        "Fit view",
+        "Play the generations",
+        "Time line",
+        "Speed",
+    ];
+    let mut rest = reached[first..].iter();
+    for name in order {
+        assert!(rest.any(|reached| reached == name), "{name} does not come in its turn in {reached:?}");
+    }
+}
+
+#[test]
+fn what_has_the_keys_is_seen() {
+    for theme in [app::command::ThemeChoice::Dark, app::command::ThemeChoice::Light] {
+        let mut window = octahedron();
+        window.state_mut().apply(Command::SetTheme(theme));
+        settle(&mut window);
+        let before = window.render().unwrap();
+        for (name, role) in [("Faces", Role::CheckBox), ("Step", Role::Button), ("Console", Role::Button)] {
+            window.get_by_role_and_label(role, name).focus();
+            window.run_steps(3);
+            let rect = window.get_by_role_and_label(role, name).rect().expand(3.0);
+            let with = window.render().unwrap();
+            let around = with.enumerate_pixels().filter(|(x, y, pixel)| {
+                rect.contains(egui::pos2(*x as f32, *y as f32)) && *pixel != before.get_pixel(*x, *y)
+            });
+            let length = 2.0 * (rect.width() + rect.height());
+            assert!(around.count() as f32 > 0.7 * length, "{theme:?} {name}");
+        }
+    }
+}
+
 #[test]
 fn the_time_line_is_walked_by_arrows_when_it_has_the_keys() {
     let mut window = octahedron();
