@@ -462,32 +462,29 @@ fn char_range(text: &str, range: &Range<usize>) -> CCursorRange {
 fn header(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(12, 5));
     frame.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            let program = &session.document.program;
-            let name = |ui: &mut Ui| {
-                let name = ui.add(egui::Label::new(RichText::new(&program.name).strong()).truncate());
-                name.on_hover_text(match &program.path {
-                    Some(path) => path.display().to_string(),
-                    None => "ships with vv; save it to make it yours".to_owned(),
-                });
-            };
-            sides(ui, "program", name, |ui| {
-                if program.is_modified() {
-                    ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
-                }
-                if session.text_waits() {
-                    let response = ui.add(egui::Button::new("Run").small()).accessible_name("Run the changed text");
-                    if response.on_hover_text("the text has changed since it was run (F5)").clicked() {
-                        commands.push(Command::Run);
-                    }
-                }
-                let response =
-                    ui.add_enabled(program.is_modified() || program.path.is_none(), egui::Button::new("Save"));
-                let response = response.accessible_name("Save the program");
-                if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &Command::Save)).clicked() {
-                    commands.push(Command::Save);
-                }
+        let program = &session.document.program;
+        let name = |ui: &mut Ui| {
+            let name = ui.add(egui::Label::new(RichText::new(&program.name).strong()).truncate());
+            name.on_hover_text(match &program.path {
+                Some(path) => path.display().to_string(),
+                None => "ships with vv; save it to make it yours".to_owned(),
             });
+        };
+        sides(ui, "program", ui.spacing().interact_size.y, name, |ui| {
+            if program.is_modified() {
+                ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
+            }
+            if session.text_waits() {
+                let response = ui.add(egui::Button::new("Run").small()).accessible_name("Run the changed text");
+                if response.on_hover_text("the text has changed since it was run (F5)").clicked() {
+                    commands.push(Command::Run);
+                }
+            }
+            let response = ui.add_enabled(program.is_modified() || program.path.is_none(), egui::Button::new("Save"));
+            let response = response.accessible_name("Save the program");
+            if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &Command::Save)).clicked() {
+                commands.push(Command::Save);
+            }
         });
     });
     ui.painter().hline(
@@ -505,7 +502,7 @@ fn conflict(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             let text = RichText::new("The file has changed on disk.").color(color);
             let text = |ui: &mut Ui| _ = ui.add(egui::Label::new(text).truncate());
-            sides(ui, "conflict", text, |ui| {
+            sides(ui, "conflict", ui.spacing().interact_size.y, text, |ui| {
                 super::widgets::button(ui, session, commands, Command::TakeFromDisk);
                 super::widgets::button(ui, session, commands, Command::KeepMine);
             });

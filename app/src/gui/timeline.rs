@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 speed(ui, session, &mut its);
             }
         };
-        sides(ui, "speed", |ui| track(ui, session, commands), right);
+        sides(ui, "speed", 28.0, |ui| track(ui, session, commands), right);
         commands.append(&mut its);
     });
 }

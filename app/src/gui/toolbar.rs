@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         ui.add_space(8.0);
         rule(ui, session, commands);
         if ui.available_width() > 240.0 {
-            sides(ui, "panels", |_| {}, |ui| panels(ui, session, commands));
+            sides(ui, "panels", ui.spacing().interact_size.y, |_| {}, |ui| panels(ui, session, commands));
         }
     });
 }

@@ -2,8 +2,8 @@
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align, Button, Color32, KeyboardShortcut, Layout, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextFormat,
-    TextStyle, Ui, Vec2, WidgetInfo, vec2,
+    Align, Button, Color32, KeyboardShortcut, Layout, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape,
+    Stroke, TextFormat, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
 };
 
 use crate::command::Command;
@@ -183,24 +183,28 @@ pub fn switch(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, comma
     }
 }
 
-/// Something at the left and something at the right of a row, made in the order in which they are read, as Tab goes.
-pub fn sides(ui: &mut Ui, name: &str, left: impl FnOnce(&mut Ui), right: impl FnOnce(&mut Ui)) {
+/// Something at the left and something at the right of a row, made in the order in which they are read, as Tab goes. Takes
+/// all the width there is and never more.
+pub fn sides(ui: &mut Ui, name: &str, height: f32, left: impl FnOnce(&mut Ui), right: impl FnOnce(&mut Ui)) {
     let id = ui.scope_id().with(("sides", name));
     // As wide as the last time.
     let known = ui.data(|data| data.get_temp::<f32>(id));
-    ui.horizontal(|ui| {
-        let room = (ui.available_width() - known.unwrap_or(0.0) - ui.spacing().item_spacing.x).max(0.0);
-        let size = vec2(room, ui.spacing().interact_size.y);
-        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-            ui.set_min_width(room);
-            left(ui);
-        });
-        let width = ui.horizontal(right).response.rect.width();
-        if known != Some(width) {
-            ui.data_mut(|data| data.insert_temp(id, width));
-            ui.ctx().request_discard("now it is known how wide the right side is");
-        }
-    });
+    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let middle = (row.right() - known.unwrap_or(0.0)).max(row.left());
+    let (mut first, second) = row.split_left_right_at_x(middle);
+    first.max.x = (first.max.x - ui.spacing().item_spacing.x).max(first.min.x);
+    let mut part = |rect: Rect, side: &str| {
+        let layout = Layout::left_to_right(Align::Center);
+        ui.new_child(UiBuilder::new().id_salt((name, side)).max_rect(rect).layout(layout))
+    };
+    left(&mut part(first, "left"));
+    let mut at_right = part(second, "right");
+    right(&mut at_right);
+    let width = at_right.min_rect().width();
+    if known != Some(width) {
+        ui.data_mut(|data| data.insert_temp(id, width));
+        ui.ctx().request_discard("now it is known how wide the right side is");
+    }
 }
 
 /// A tab or a switch that is on most of the time: marked without shouting.

@@ -173,3 +173,18 @@ fn every_command_of_the_menus_is_described() {
         assert!(!description.label.is_empty() && !description.tooltip.is_empty(), "{command:?}");
     }
 }
+
+#[test]
+fn what_comes_beside_the_name_of_the_program_makes_its_panel_no_wider() {
+    let mut window = octahedron();
+    let left = |window: &Harness<'static, App>| window.get_by_label("Viewport").rect().left();
+    let before = left(&window);
+    assert!((before - 0.36 * window.ctx.content_rect().width()).abs() < 2.0, "as it is meant: {before}");
+    window.state_mut().apply(Command::SetReload(app::command::Reload::ByHand));
+    window.state_mut().apply(Command::Edit("// changed".into()));
+    window.run_steps(4);
+    let run = window.get_by_label("Run the changed text").rect();
+    let save = window.get_by_label("Save the program").rect();
+    assert!(run.right() <= save.left() && save.right() < before, "{run} {save}");
+    assert_eq!(left(&window), before);
+}
