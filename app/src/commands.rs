@@ -166,6 +166,7 @@ enum DiagnosticFormat {
 
 /// Options of everything that may report errors in files.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Reports")]
 struct Reporting {
     /// How errors and warnings are written to stderr.
     #[arg(long, value_enum, default_value_t = DiagnosticFormat::Human, value_name = "FORMAT")]
@@ -174,11 +175,14 @@ struct Reporting {
 
 /// Options of everything that reads a mesh.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Limits")]
 struct Importing {
     /// Refuse a mesh that would have to be repaired.
     #[arg(long)]
     strict: bool,
-    /// Time for each step with closing it, and for reading a mesh; 0 for as long as it takes.
+    /// Time for each step, and for reading a mesh.
+    ///
+    /// With closing the step; 0 for as long as it takes.
     #[arg(long, value_name = "SECONDS", default_value = "300", allow_negative_numbers = true, value_parser = seconds)]
     timeout: Timeout,
     /// How many vertices a mesh may have.

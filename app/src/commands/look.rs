@@ -15,57 +15,76 @@ use super::{Exit, error, fail, paper, style};
 
 /// Options of everything that draws pictures.
 #[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Pictures")]
 pub struct LookArguments {
-    /// Colour pictures by: valence, degree (of faces), gauss, mean (curvature), birth (generation), change (in the last
-    /// step), x, y, z, or a vertex property; `NAME:color` takes a vec as red, green, blue.
+    /// Colour pictures by valence, gauss, birth, a property …
+    ///
+    /// One of valence, degree (of faces), gauss, mean (curvature), birth (generation), change (in the last step), x, y,
+    /// z, or a vertex property; `NAME:color` takes a vec as red, green, blue.
     #[arg(long, value_name = "WHAT", value_parser = quantity)]
     color_by: Option<Quantity>,
-    /// The numbers at both ends of the colours. Default: what most of the numbers lie between, of all that is side by side
-    /// in one picture, or in one film.
+    /// The numbers at both ends of the colours.
+    ///
+    /// Default: what most of the numbers lie between, of all that is side by side in one picture, or in one film.
     #[arg(long, value_name = "LOW,HIGH", allow_hyphen_values = true, value_parser = range)]
     color_range: Option<[f64; 2]>,
-    /// Draw arrows: vertex-normals, face-normals, or a vertex property of type vec.
+    /// Draw vertex-normals, face-normals, or a property of type vec.
     #[arg(long, value_name = "WHAT", value_parser = arrows)]
     arrows: Option<Arrows>,
-    /// Write at what is seen: vertices (what they are called), degrees (in faces, how many corners they have), numbers (of
+    /// Write vertices, degrees, numbers, or a property.
+    ///
+    /// At what is seen: vertices (what they are called), degrees (in faces, how many corners they have), numbers (of
     /// the colours), or the value of a vertex property.
     #[arg(long, value_name = "WHAT", value_parser = labels)]
     labels: Option<Label>,
-    /// Number the neighbours of this vertex in the order of its ring, with arrows from each to the next; vertices are
-    /// counted from 1. May be repeated.
+    /// Number the neighbours of this vertex in the order of its ring.
+    ///
+    /// With arrows from each to the next; vertices are counted from 1. May be repeated.
     #[arg(long, value_name = "NUMBER", value_parser = vertex)]
     ring: Vec<Vertex>,
-    /// How pictures are drawn, words with commas between: faces, edges, vertices, control (the mesh of generation 0 over
-    /// it), smooth, colors, occlusion, grid, axes, dark, transparent, lights, reflection-lines, isophotes; with `no-` in
-    /// front to leave it out. Or a file such as the window saves as style: words and all other options go before what it
-    /// says.
+    /// How pictures are drawn: words, or a style file.
+    ///
+    /// Words with commas between: faces, edges, vertices, control (the mesh of generation 0 over it), smooth, colors,
+    /// occlusion, grid, axes, dark, transparent, lights, reflection-lines, isophotes; with `no-` in front to leave it
+    /// out. Or a file such as the window saves as style: words and all other options go before what it says.
     #[arg(long, value_name = "WORDS|FILE", value_delimiter = ',', value_parser = style::given)]
     style: Vec<style::Given>,
-    /// The colour behind pictures in place of paper: white, black, or such as #1c293b. Figures have nothing behind them.
+    /// The colour behind pictures in place of paper.
+    ///
+    /// White, black, or such as #1c293b. Figures have nothing behind them.
     #[arg(long, value_name = "COLOR", value_parser = paper::background)]
     background: Option<[u8; 3]>,
-    /// How finely pictures are drawn, in samples for each pixel: 1, 4, 16 or 64. Default: 4.
+    /// How finely pictures are drawn.
+    ///
+    /// In samples for each pixel: 1, 4, 16 or 64. Default: 4.
     #[arg(long, value_name = "N", value_parser = samples)]
     samples: Option<u32>,
-    /// Cut the mesh open across an axis, x, y, z or view; `-x` keeps the other side, `x:0.5` cuts elsewhere than in the
-    /// middle, from -1 to 1.
+    /// Cut the mesh open across an axis: x, y, z or view.
+    ///
+    /// `-x` keeps the other side, `x:0.5` cuts elsewhere than in the middle, from -1 to 1.
     #[arg(long, value_name = "AXIS[:PLACE]", allow_hyphen_values = true, value_parser = cut)]
     cut: Option<Cut>,
-    /// Size of figures: a width such as 85mm, or a width and a height that they fit into, such as 85x60mm. Default:
-    /// 120x160mm, of several side by side 160mm.
-    #[arg(long, value_name = "W[xH]mm", value_parser = paper::page)]
+    /// Size of figures, such as 85mm or 85x60mm.
+    ///
+    /// A width, or a width and a height that they fit into. Default: 120x160mm, of several side by side 160mm.
+    #[arg(long, help_heading = "Figures", value_name = "W[xH]mm", value_parser = paper::page)]
     page: Option<Page>,
-    /// How figures draw lines that are outline, boundary, crease, intersection (of faces that pierce each other), inner,
-    /// control or hidden: width in points, colour, and solid, dashed or dotted, in any order, such as inner=0.3,#888 or
-    /// hidden=dotted; `hidden` draws them, `inner=none` does not. May be repeated.
-    #[arg(long, value_name = "CLASS[=LOOK]", value_parser = paper::line)]
+    /// How figures draw a class of lines, such as inner=0.3,#888.
+    ///
+    /// The classes are outline, boundary, crease, intersection (of faces that pierce each other), inner, control and
+    /// hidden; the look is width in points, colour, and solid, dashed or dotted, in any order; `hidden` draws them,
+    /// `inner=none` does not. May be repeated.
+    #[arg(long, help_heading = "Figures", value_name = "CLASS[=LOOK]", value_parser = paper::line)]
     line: Vec<(Class, Option<Line>)>,
-    /// Make lines of figures lighter the farther away they are, up to this much: from 0 to 1, which is white. Default,
-    /// without a number: 0.75.
-    #[arg(long, value_name = "AMOUNT", num_args = 0..=1, require_equals = true, default_missing_value = "0.75", value_parser = paper::fade)]
+    /// Make lines of figures lighter the farther away they are.
+    ///
+    /// Up to this much: from 0 to 1, which is white. Default, without a number: 0.75.
+    #[arg(long, help_heading = "Figures", value_name = "AMOUNT", num_args = 0..=1, require_equals = true, default_missing_value = "0.75", value_parser = paper::fade)]
     fade: Option<f64>,
-    /// Height of letters in figures, in points. Default: 7.
-    #[arg(long, value_name = "POINTS", value_parser = paper::letters)]
+    /// Height of letters in figures, in points.
+    ///
+    /// Default: 7.
+    #[arg(long, help_heading = "Figures", value_name = "POINTS", value_parser = paper::letters)]
     font_size: Option<f64>,
 }
 

@@ -20,17 +20,27 @@ use super::{Exit, error, fail, input, picture, view};
 
 /// What to write.
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
 pub struct OutputArguments {
-    /// Write the mesh (.obj, .off, .ply, .stl, .glb, .gltf), a picture of it (.png; .gif if it moves) or a figure for a paper, of lines and areas (.svg, .eps, .pdf); `-` is stdout. May be repeated.
+    /// Write a mesh, a picture or a figure; `-` is stdout.
+    ///
+    /// The mesh as .obj, .off, .ply, .stl, .glb or .gltf, a picture of it as .png (.gif if it moves), or a figure for a
+    /// paper, of lines and areas, as .svg, .eps or .pdf. May be repeated.
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
-    /// What `-o -` writes, and files whose extension does not say or of which there are several kinds.
+    /// What `-o -` writes, and files whose extension does not say.
     #[arg(long, value_parser = kind())]
     format: Option<Kind>,
-    /// Size of pictures in pixels. Default: that of the reference picture, else 1280x960.
+    /// Size of pictures in pixels.
+    ///
+    /// Default: that of the reference picture, else 1280x960.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
-    /// From where pictures look: a viewpoint that was copied in the window (`vv view: eye … target … up … perspective …`), a file with one, or a side: front, back, left, right, top, bottom, isometric; `orthographic` and `z-up` may follow. Default: the whole mesh, a little from above.
+    /// From where pictures look.
+    ///
+    /// A viewpoint that was copied in the window (`vv view: eye … target … up … perspective …`), a file with one, or a
+    /// side: front, back, left, right, top, bottom, isometric; `orthographic` and `z-up` may follow. Default: the whole
+    /// mesh, a little from above.
     #[arg(long, value_name = "TEXT|FILE|SIDE")]
     view: Option<String>,
 }

@@ -67,47 +67,68 @@ pub struct Arguments {
     /// What is no option and no program: the mesh, where `-i` was forgotten.
     #[arg(hide = true)]
     others: Vec<PathBuf>,
-    /// The mesh to begin with (.obj, .off, .ply, .stl, .glb, .gltf); `-` is stdin, in any of these formats. A program with `start` needs none. May be repeated: each is run on its own, and `{name}` in the names of outputs is its name.
+    /// The mesh to begin with; `-` is stdin.
+    ///
+    /// In one of the formats .obj, .off, .ply, .stl, .glb and .gltf, also from stdin. A program with `start` needs
+    /// none. May be repeated: each is run on its own, and `{name}` in the names of outputs is its name.
     #[arg(short, long, value_name = "MESH")]
     input: Vec<PathBuf>,
-    /// How often to apply the rule. Default: 1, or 0 if the program has only `start`.
+    /// How often to apply the rule.
+    ///
+    /// Default: 1, or 0 if the program has only `start`.
     #[arg(short = 'n', long, value_name = "STEPS", allow_negative_numbers = true, value_parser = steps)]
     steps: Option<u64>,
-    /// The rule to apply. Default: `step`, else the program's last one.
+    /// The rule to apply.
+    ///
+    /// Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
     rule: Option<String>,
-    /// The generations that `{n:2}` in the names of outputs stands for (in two digits), such as 0,2,4 or 0-3; pictures
-    /// and figures without it show them side by side. Default: all, and the last one.
-    #[arg(long, value_name = "LIST", value_parser = plan::generations)]
+    /// Which generations to write, such as 0,2,4 or 0-3.
+    ///
+    /// `{n:2}` in the names of outputs stands for them (in two digits); pictures and figures without it show them side
+    /// by side. Default: all, and the last one.
+    #[arg(long, help_heading = "Output", value_name = "LIST", value_parser = plan::generations)]
     generations: Option<plan::Generations>,
-    /// Go around the mesh in N pictures: `{frame}` in their names is the number of each, from 0; a .gif holds them all.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
+    /// Go around the mesh in N pictures.
+    ///
+    /// `{frame}` in their names is the number of each, from 0; a .gif holds them all.
+    #[arg(long, help_heading = "Output", value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
     turntable: Option<u32>,
-    /// Give a `param` of the program another value: a number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make as many runs, and `{w}` in the names of outputs is the value; pictures and figures without `{w}` show them side by side.
+    /// Give a `param` of the program another value.
+    ///
+    /// A number, true, false, or x,y,z. May be repeated. Several values, `w=0,0.1,0.5` or from:to:count `w=0:1:5`, make
+    /// as many runs, and `{w}` in the names of outputs is the value; pictures and figures without `{w}` show them side
+    /// by side.
     #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = parameters::definition)]
     definitions: Vec<(String, String)>,
-    #[command(flatten)]
-    output: OutputArguments,
-    #[command(flatten)]
-    look: LookArguments,
-    #[command(flatten)]
-    importing: Importing,
     /// Seed of `random()`.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     seed: u64,
     /// Who runs the program; both give the same results.
     #[arg(long, value_enum, value_name = "ENGINE", default_value_t)]
     engine: EngineChoice,
-    /// Write counts, invariants, warnings and timings to stdout as one object; `print` then goes to stderr.
-    #[arg(long, value_enum, value_name = "FORMAT")]
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    look: LookArguments,
+    #[command(flatten)]
+    importing: Importing,
+    /// Write counts, invariants, warnings and timings to stdout.
+    ///
+    /// As one object; `print` then goes to stderr.
+    #[arg(long, help_heading = "Reports", value_enum, value_name = "FORMAT")]
     summary: Option<SummaryFormat>,
-    /// Compare the resulting mesh (positions and faces, vertices numbered alike) or a picture of it (.png) with this
-    /// earlier one, after writing the outputs. If they differ the exit code is 5.
-    #[arg(long, value_name = "FILE")]
+    /// Compare the result with this earlier one.
+    ///
+    /// The mesh (positions and faces, vertices numbered alike) or a picture of it (.png), after writing the outputs. If
+    /// they differ the exit code is 5.
+    #[arg(long, help_heading = "Reports", value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// How far the reference may be off: for meshes a distance, by default 1e-9; for pictures the difference of a colour
-    /// channel from 0 to 1 (of single pixels at outlines four times that), by default 0.
-    #[arg(long, value_name = "X", requires = "reference", allow_negative_numbers = true, value_parser = tolerance)]
+    /// How far the reference may be off.
+    ///
+    /// For meshes a distance, by default 1e-9; for pictures the difference of a colour channel from 0 to 1 (of single
+    /// pixels at outlines four times that), by default 0.
+    #[arg(long, help_heading = "Reports", value_name = "X", requires = "reference", allow_negative_numbers = true, value_parser = tolerance)]
     tolerance: Option<f64>,
     #[command(flatten)]
     reporting: Reporting,
