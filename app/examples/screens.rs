@@ -9,12 +9,12 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use app::annotate::Quantity;
-use app::command::{Command, Inspect, PairAction, Panel, TextAction, ThemeChoice};
+use app::annotate::{Arrows, Label, Quantity};
+use app::command::{Command, Inspect, PairAction, Panel, TextAction, ThemeChoice, ViewAction};
 use app::document::MeshSource;
 use app::gui::App;
 use app::scene::Surface;
-use app::session::{Dialog, Purpose};
+use app::session::{Dialog, MaskState, Purpose};
 use app::store::Store;
 use eframe::egui;
 use egui_kittest::Harness;
@@ -25,7 +25,7 @@ type Window = Harness<'static, App>;
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Pixels, and pixels in a point.
-const SIZES: [(u32, u32, f32); 3] = [(1280, 720, 1.0), (1920, 1080, 1.0), (3840, 2160, 2.0)];
+const SIZES: [(u32, u32, f32); 4] = [(800, 500, 1.0), (1280, 720, 1.0), (1920, 1080, 1.0), (3840, 2160, 2.0)];
 
 /// What is done to a new window.
 struct State {
@@ -98,6 +98,89 @@ const STATES: &[State] = &[
             }
         },
     },
+    State {
+        name: "mask",
+        prepare: |w| {
+            select_at(w, 1, &[40]);
+            do_(w, Command::Inspect(Inspect::Mask));
+            let began = Instant::now();
+            let measuring = |w: &Window| matches!(w.state().session().mask(), MaskState::Measuring(_));
+            while measuring(w) && began.elapsed() < Duration::from_secs(30) {
+                w.step();
+                std::thread::sleep(Duration::from_millis(10));
+            }
+        },
+    },
+    State { name: "distance", prepare: |w| select_at(w, 1, &[12, 20]) },
+    State { name: "angle", prepare: |w| select_at(w, 1, &[20, 12, 40]) },
+    State {
+        name: "mesh-problems",
+        prepare: |w| {
+            edit(w, |_| {
+                "void tear(mesh& S) {\n  int n = 0;\n  forall v in S {\n    if (n++ > 2) break;\n    \
+                 erase (any in v) from v;\n  }\n  vertex x;\n  add x to S;\n}\n"
+                    .into()
+            });
+            do_(w, Command::GoTo(1));
+            settle(w);
+            do_(w, Command::Inspect(Inspect::ListProblems));
+        },
+    },
+    State {
+        name: "labels-and-arrows",
+        prepare: |w| {
+            do_(w, Command::GoTo(1));
+            do_(w, Command::LabelBy(Label::Vertices));
+            do_(w, Command::ArrowsOf(Arrows::VertexNormals));
+            click(w, "Labels and arrows");
+        },
+    },
+    State {
+        name: "born-and-moved",
+        prepare: |w| {
+            do_(w, Command::GoTo(1));
+            do_(w, Command::ColorBy(Quantity::Change));
+        },
+    },
+    State { name: "valence", prepare: |w| do_(w, Command::ColorBy(Quantity::Valence)) },
+    State {
+        name: "isophotes",
+        prepare: |w| {
+            do_(w, Command::GoTo(4));
+            do_(w, Command::Smooth);
+            do_(w, Command::Edges);
+            do_(w, Command::Control);
+            do_(w, Command::ShowBy(Surface::Isophotes));
+        },
+    },
+    State {
+        name: "smooth-and-shaded",
+        prepare: |w| {
+            do_(w, Command::GoTo(4));
+            do_(w, Command::Smooth);
+            do_(w, Command::Edges);
+            do_(w, Command::Occlusion);
+        },
+    },
+    State { name: "render-options", prepare: |w| do_(w, Command::View(ViewAction::RenderOptions)) },
+    State {
+        name: "completion",
+        prepare: |w| {
+            w.get_by_label("Program text").focus();
+            w.run_steps(2);
+            w.get_by_label("Program text").type_text("// \nprev");
+        },
+    },
+    State { name: "word-explained", prepare: |w| rest(w, egui::pos2(110.0, 246.0)) },
+    State { name: "number-to-drag", prepare: |w| rest(w, egui::pos2(122.0, 426.0)) },
+    State {
+        name: "drop",
+        prepare: |w| {
+            let path = Some(PathBuf::from("bunny.ply"));
+            w.input_mut().hovered_files.push(egui::HoveredFile { path, ..Default::default() });
+            w.run_steps(2);
+        },
+    },
     State { name: "select-vertex", prepare: |w| do_(w, Command::Inspect(Inspect::AskForVertex)) },
     State {
         name: "side-by-side",
@@ -134,6 +217,29 @@ const STATES: &[State] = &[
             do_(w, Command::OpenExample("mountain.vv"));
             do_(w, Command::GoTo(5));
             do_(w, Command::SetParam("height".to_owned(), Value::Double(0.7)));
+        },
+    },
+    State {
+        name: "params-sets",
+        prepare: |w| {
+            exhibit(w, "reaction-diffusion.vv", 1);
+            settle(w);
+            for (name, value) in [("spots", 0.03), ("stripes", 0.05)] {
+                do_(w, Command::SetParam("feed".to_owned(), Value::Double(value)));
+                do_(w, Command::SaveParams(name.to_owned()));
+            }
+            click(w, "Sets");
+        },
+    },
+    State {
+        name: "params-of-several-files",
+        prepare: |w| {
+            edit(w, |_| {
+                "#include \"mountain.vv\"\n\nparam double size = 1 in [0.5, 2]; // of all\nparam bool flat = false;\n\n\
+                 void scale(mesh& S) {\n  step(S);\n  if (!flat) forall v in S v$pos *= size;\n}\n"
+                    .into()
+            });
+            do_(w, Command::UseMesh(MeshSource::Empty));
         },
     },
     State { name: "error", prepare: |w| edit(w, |text| text.replace("gaps `p > 1", "gapz `p > 1")) },
@@ -173,7 +279,7 @@ const STATES: &[State] = &[
     State {
         name: "no-file-dialog",
         prepare: |w| {
-            let path = String::new();
+            let path = "assets/meshes/t".to_owned();
             w.state_mut().session_mut().dialog =
                 Some(Dialog::TypePath { purpose: Purpose::OpenMesh, path, then: None });
         },
@@ -259,6 +365,22 @@ fn shoot(state: &State, (width, height, scale): (u32, u32, f32), theme: ThemeCho
 fn do_(window: &mut Window, command: Command) {
     window.state_mut().apply(command);
     window.run_steps(2);
+}
+
+/// In a generation, with these vertices selected.
+fn select_at(window: &mut Window, generation: u64, vertices: &[u64]) {
+    do_(window, Command::GoTo(generation));
+    settle(window);
+    do_(window, Command::Inspect(Inspect::SelectNumbers(vertices.to_vec())));
+}
+
+/// With the pointer at a place, until what is there has been explained.
+fn rest(window: &mut Window, at: egui::Pos2) {
+    window.hover_at(at);
+    for _ in 0..40 {
+        window.step();
+        std::thread::sleep(Duration::from_millis(5));
+    }
 }
 
 fn exhibit(window: &mut Window, program: &'static str, generation: u64) {

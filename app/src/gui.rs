@@ -280,7 +280,7 @@ impl App {
             let _span = trace::span("window: inspector");
             egui::Panel::right("inspector")
                 .frame(theme::panel(ui))
-                .default_size((width * 0.19).clamp(190.0, 270.0))
+                .default_size((width * 0.2).clamp(190.0, 290.0))
                 .size_range(INSPECTOR..=(ui.available_width() - VIEWPORT).clamp(INSPECTOR, width * 0.5))
                 .show(ui, |ui| inspector::show(ui, session, commands));
         }

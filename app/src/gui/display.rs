@@ -42,7 +42,7 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         .selected_text(color_by.title())
         .truncate()
         .height(420.0)
-        .width(ui.available_width() - 8.0);
+        .width(ui.available_width());
     let response = combo.show_ui(ui, |ui| {
         for (_, quantity) in &Quantity::NAMED {
             let command = Command::ColorBy(quantity.clone());
@@ -103,7 +103,7 @@ fn labels_and_arrows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>
         ui.horizontal(|ui| {
             ui.add_sized([48.0, 20.0], eframe::egui::Label::new(title));
             let combo = ComboBox::from_id_salt(name).selected_text(shown).truncate().height(420.0);
-            let response = combo.width(ui.available_width() - 8.0).show_ui(ui, |ui| {
+            let response = combo.width(ui.available_width()).show_ui(ui, |ui| {
                 for (command, title) in offers {
                     let entry = ui.selectable_label(command.is_on(session) == Some(true), title);
                     if entry.on_hover_text(command.describe().tooltip).clicked() {

@@ -142,7 +142,11 @@ impl Gallery {
         let inner = rect.shrink(3.0);
         let picture = Rect::from_min_size(inner.min, vec2(inner.width(), inner.width()));
         self.paint_picture(ui, exhibit, picture);
-        let line = line(&exhibit.headline()).to_owned();
+        let headline = exhibit.headline();
+        let line = line(&headline);
+        // Some begin with who and when, the others now with a small letter.
+        let (first, rest) = line.split_at(line.chars().next().map_or(0, char::len_utf8));
+        let line = format!("{}{rest}", first.to_uppercase());
         let (body, small) = (TextStyle::Body.resolve(ui.style()), TextStyle::Small.resolve(ui.style()));
         let text_width = (inner.width() - 14.0).max(20.0);
         let at = pos2(inner.left() + 7.0, picture.bottom() + 6.0);

@@ -112,6 +112,7 @@ fn kinds(ui: &mut Ui, classes: &[Class], under: Option<&Under>) {
             );
         }
         let mut row = ui.new_child(UiBuilder::new().max_rect(rect.with_min_x(rect.left() + 22.0)));
+        row.spacing_mut().interact_size.y = rect.height(); // else the text stands below its colour
         row.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
             line(ui, RichText::new(&class.name).small());

@@ -52,7 +52,7 @@ impl Inks {
             let [selected, pointed, ring, old, walk, wrong, measure] = [
                 Color32::from_rgb(0xff, 0x9f, 0x2e),
                 Color32::from_rgb(0xff, 0xe1, 0x5a),
-                Color32::from_rgb(0x6c, 0xc4, 0xff),
+                Color32::from_rgb(0xa8, 0xe2, 0xff),
                 Color32::from_rgb(0xc3, 0xb4, 0xf2),
                 Color32::from_rgb(0xf0, 0x7c, 0xff),
                 Color32::from_rgb(0xff, 0x5f, 0x57),

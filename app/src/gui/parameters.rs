@@ -57,7 +57,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 
 /// Values that were given names.
 fn sets(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    ui.set_min_width(190.0);
+    ui.set_width(220.0);
     for (name, values) in &session.document.param_sets {
         ui.horizontal(|ui| {
             let on = *values == session.document.params;

@@ -7,7 +7,7 @@ use crate::session::Session;
 
 /// Shows them as a menu.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    ui.set_min_width(190.0);
+    ui.set_width(220.0);
     for (name, camera) in &session.document.views {
         ui.horizontal(|ui| {
             let on = *camera == session.aim();
