@@ -29,7 +29,7 @@ pub use inspecting::Inspect;
 pub use matching::{Match, find};
 pub use menus::{MENUS, Menu, outer, with_keys};
 pub use pair::PairAction;
-pub use view::{Toward, ViewAction};
+pub use view::{Toward, ViewAction, of_hands};
 
 /// A wish.
 #[derive(Debug, Clone, PartialEq)]

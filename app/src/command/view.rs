@@ -2,7 +2,7 @@
 
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::{Description, alt, ctrl, ctrl_shift, key, shift};
+use super::{Command, Description, Inspect, alt, ctrl, ctrl_shift, key, shift};
 use crate::camera::{Camera, Side, Up};
 use crate::navigation::{Preset, Turning};
 use crate::session::Session;
@@ -67,6 +67,51 @@ const fn ctrl_alt(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::ALT), key)
 }
 
+const fn look(key_: Key, side: Side) -> (KeyboardShortcut, Command) {
+    (key(key_), Command::View(ViewAction::From(side)))
+}
+
+const fn look_back(key: Key, side: Side) -> (KeyboardShortcut, Command) {
+    (ctrl(key), Command::View(ViewAction::From(side)))
+}
+
+const fn turn(key_: Key, toward: Toward) -> (KeyboardShortcut, Command) {
+    (key(key_), Command::View(ViewAction::Turn(toward)))
+}
+
+const fn shift_view(key: Key, toward: Toward) -> (KeyboardShortcut, Command) {
+    (ctrl(key), Command::View(ViewAction::Shift(toward)))
+}
+
+/// What digits mean with the hands of Blender, on the keypad and above the letters alike, before all else they mean: there
+/// it is called to emulate the keypad.
+const BLENDER: &[(KeyboardShortcut, Command)] = &[
+    look(Key::Num1, Side::Front),
+    look_back(Key::Num1, Side::Back),
+    look(Key::Num3, Side::Right),
+    look_back(Key::Num3, Side::Left),
+    look(Key::Num7, Side::Top),
+    look_back(Key::Num7, Side::Bottom),
+    look(Key::Num0, Side::Isometric),
+    (key(Key::Num5), Command::View(ViewAction::Orthographic)),
+    turn(Key::Num4, Toward::Left),
+    turn(Key::Num6, Toward::Right),
+    turn(Key::Num8, Toward::Up),
+    turn(Key::Num2, Toward::Down),
+    shift_view(Key::Num4, Toward::Left),
+    shift_view(Key::Num6, Toward::Right),
+    shift_view(Key::Num8, Toward::Up),
+    shift_view(Key::Num2, Toward::Down),
+    (key(Key::Period), Command::Inspect(Inspect::Fly)),
+    (key(Key::Period), Command::Fit),
+];
+
+/// The keys that mean something else with these hands than else, in the order in which they are tried.
+#[must_use]
+pub fn of_hands(preset: Preset) -> &'static [(KeyboardShortcut, Command)] {
+    if preset == Preset::Blender { BLENDER } else { &[] }
+}
+
 impl ViewAction {
     pub(super) fn describe(&self) -> Description {
         let (label, tooltip, shortcuts): (_, _, &'static [KeyboardShortcut]) = match self {
@@ -115,9 +160,11 @@ impl ViewAction {
                 const { &[ctrl_shift(Key::V)] },
             ),
             Self::SetPreset(Preset::Vv) => ("Hands of vv", "left drag turns, right drag shifts", &[]),
-            Self::SetPreset(Preset::Blender) => {
-                ("Hands of Blender", "middle drag turns, with Shift it shifts, with Ctrl it zooms", &[])
-            }
+            Self::SetPreset(Preset::Blender) => (
+                "Hands of Blender",
+                "middle drag turns, with Shift it shifts, with Ctrl it zooms; digits are the keypad",
+                &[],
+            ),
             Self::SetPreset(Preset::Maya) => {
                 ("Hands of Maya", "with Alt, left drag turns, middle drag shifts, right drag zooms", &[])
             }

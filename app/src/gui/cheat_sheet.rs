@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use super::clicks;
-use crate::command::{Command, MENUS, find};
+use crate::command::{Command, MENUS, find, of_hands};
 use crate::navigation::Preset;
 use crate::session::{Dialog, Session};
 
@@ -69,8 +69,13 @@ fn sections(ui: &Ui, preset: Preset, query: &str) -> Vec<Section> {
         .collect();
     let fixed = |rows: &[(&str, &str)]| rows.iter().map(|&(a, b)| (a.to_owned(), b.to_owned())).collect::<Vec<_>>();
     if let Some(run) = sections.iter_mut().find(|s| s.title == "Run") {
-        run.rows.extend(fixed(MORE));
+        run.rows.extend(fixed(if preset == Preset::Blender { &[] } else { MORE }));
     }
+    let of_hands = of_hands(preset).iter().map(|(keys, command)| {
+        let label = command.describe().label.trim_end_matches('…');
+        (ui.ctx().format_shortcut(keys), label.to_owned())
+    });
+    sections.push(Section { title: "Digits and keypad", rows: of_hands.collect() });
     let hands = preset.explained().into_iter().map(|(how, what)| (how, what.to_owned()));
     sections.push(Section { title: "In the picture", rows: hands.chain(fixed(clicks::HANDS)).collect() });
     for section in &mut sections {

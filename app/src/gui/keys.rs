@@ -4,12 +4,24 @@ use eframe::egui::text_selection::LabelSelectionState;
 use eframe::egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers};
 
 use crate::command::{self, Command, Inspect, ViewAction};
+use crate::navigation::Preset;
 use crate::session::Session;
+
+/// Goes on with a walk.
+const WALK: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::Period);
 
 /// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed; `escape_is_taken` if
 /// Escape closes something.
 pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &mut Vec<Command>) {
     let typing = ctx.egui_wants_keyboard_input();
+    for (shortcut, command) in command::of_hands(session.navigation.preset) {
+        // A walk that is watched has the point.
+        let walks = *shortcut == WALK && session.inspection.walk.is_some();
+        let may = !typing && !walks && command.is_enabled(session);
+        if may && ctx.input_mut(|i| consume(i, shortcut)) {
+            commands.push(command.clone());
+        }
+    }
     for command in command::with_keys() {
         for shortcut in command.describe().shortcuts {
             if typing && !command::acts_while_typing(shortcut) {
@@ -67,7 +79,9 @@ pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &
             Key::Num8,
             Key::Num9,
         ];
-        for (generation, key) in digits.into_iter().enumerate() {
+        // With other hands they mean something else.
+        let free = session.navigation.preset != Preset::Blender;
+        for (generation, key) in digits.into_iter().enumerate().filter(|_| free) {
             if ctx.input_mut(|i| consume(i, &KeyboardShortcut::new(Modifiers::NONE, key))) {
                 commands.push(Command::GoTo(generation as u64));
             }

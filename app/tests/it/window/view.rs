@@ -318,3 +318,36 @@ fn what_counts_is_what_was_held_when_a_key_was_pressed() {
     settle(&mut window);
     assert_eq!(window.state().session().notice().unwrap().1, "viewpoint copied");
 }
+
+#[test]
+fn with_the_hands_of_blender_digits_are_the_keypad() {
+    let mut window = octahedron();
+    press(&mut window, Key::Num1);
+    assert_eq!(window.state().session().document.generation, 1, "a digit is a generation");
+    view(&mut window, ViewAction::SetPreset(Preset::Blender));
+    let side = |window: &Harness<'static, App>| window.state().session().aim().side(Up::Y);
+    let keys = [
+        (Modifiers::NONE, Key::Num1, Side::Front),
+        (Modifiers::COMMAND, Key::Num1, Side::Back),
+        (Modifiers::NONE, Key::Num3, Side::Right),
+        (Modifiers::COMMAND, Key::Num3, Side::Left),
+        (Modifiers::NONE, Key::Num7, Side::Top),
+        (Modifiers::COMMAND, Key::Num7, Side::Bottom),
+    ];
+    for (modifiers, key, expected) in keys {
+        window.key_press_modifiers(modifiers, key);
+        settle(&mut window);
+        assert_eq!(side(&window), Some(expected));
+    }
+    assert_eq!(window.state().session().document.generation, 1);
+    assert!(window.state().session().panels.program && window.state().session().panels.inspector);
+    press(&mut window, Key::Num5);
+    assert!(window.state().session().aim().orthographic);
+    view(&mut window, ViewAction::Farther);
+    let far = window.state().session().aim().distance;
+    press(&mut window, Key::Period);
+    assert!(window.state().session().aim().distance < far, "all of it");
+    window.state_mut().apply(Command::CheatSheet);
+    window.run_steps(4);
+    window.get_by_label("Digits and keypad");
+}
