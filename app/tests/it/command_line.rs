@@ -1,6 +1,7 @@
 //! The command line, run as a user runs it: exit code, stdout, stderr and the files that are left behind.
 
 mod budgets;
+mod documented;
 mod figures;
 mod files;
 mod headless;
