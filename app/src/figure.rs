@@ -319,8 +319,8 @@ pub fn sketch(
                 }
             }
         }
-        let found =
-            notes::find(&subject, &surface, &space, Some(&hider), &lines, (style, settings.letters, Inks::PAPER));
+        let dot = if style.vertices { f64::from(style.vertex_size) / 4.0 } else { 0.4 };
+        let found = notes::find(&subject, &surface, &space, Some(&hider), &lines, (dot, settings.letters, Inks::PAPER));
         sketch.notes = found.notes;
         sketch.strokes = found.strokes;
         sketch.dots.extend(found.dots);
@@ -351,7 +351,9 @@ pub fn write_on(picture: &mut RgbaImage, subject: Subject<'_>, camera: &Camera, 
             lines.entry(edge.vertices[0]).or_default().push(along);
             lines.entry(edge.vertices[1]).or_default().push(-along);
         }
-        let found = notes::find(&subject, &surface, &space, hider.as_ref(), &lines, (style, ON_SCREEN, inks));
+        // Dots of pictures are as large as on the screen.
+        let dot = if style.vertices { f64::from(style.vertex_size) / 2.0 } else { 0.5 };
+        let found = notes::find(&subject, &surface, &space, hider.as_ref(), &lines, (dot, ON_SCREEN, inks));
         (sketch.notes, sketch.strokes, sketch.dots) = (found.notes, found.strokes, found.dots);
     }
     sketch.axes = style.axes.then(|| space.axes());

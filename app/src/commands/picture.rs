@@ -304,13 +304,19 @@ pub fn draw(
         let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
         let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
         let mut drawn = headless.dressed_image(&exhibit.scene, dressing, camera, &style, size).map_err(failed)?;
-        figure::write_on(&mut drawn, exhibit.subject(shot.look), camera, &style, size.scale);
+        figure::write_on(&mut drawn, exhibit.subject(shot.look), camera, &style, lettering(size));
         if let Some(color) = shot.look.background {
             render::put_on(&mut drawn, color);
         }
         take(drawn)?;
     }
     Ok(())
+}
+
+/// Pixels per point of what is written on a picture of this size: larger on a large one.
+fn lettering(size: render::Size) -> f32 {
+    const USUAL: f32 = 960.0;
+    size.scale.max(size.width.min(size.height) as f32 / USUAL)
 }
 
 /// The picture in PNG format.

@@ -117,12 +117,11 @@ impl<'a> Builder<'a> {
 
     /// The directions of the axes, in a corner.
     fn axes(&mut self, directions: [DVec3; 3], corner: DVec2) {
-        const COLORS: [[u8; 3]; 3] = [[0xc4, 0x2a, 0x1e], [0x1d, 0x7a, 0x2f], [0x1a, 0x52, 0xcc]];
         const NAMES: [[&str; 2]; 3] = [["x-axis", "x"], ["y-axis", "y"], ["z-axis", "z"]];
         let size = self.settings.letters;
         let length = 2.4 * size;
         let center = corner + DVec2::new(1.5, -1.5) * length;
-        for ((direction, color), [name, letter]) in directions.into_iter().zip(COLORS).zip(NAMES) {
+        for ((direction, color), [name, letter]) in directions.into_iter().zip(self.inks.axes).zip(NAMES) {
             let along = DVec2::new(direction.x, -direction.y);
             let tip = center + along * length;
             let line = Line { width: 0.12 * size, color, dash: Dash::Solid };

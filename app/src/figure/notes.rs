@@ -15,7 +15,7 @@ use super::{Dash, Line, Subject};
 use crate::annotate::Label;
 use crate::annotate::labels::Texts;
 use crate::inspect::ring::{Entry, Ring};
-use crate::scene::{Style, Theme};
+use crate::scene::Theme;
 
 /// What is written and marked beside what the style says.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -41,6 +41,8 @@ pub(super) struct Inks {
     pub ring: [u8; 3],
     /// Around letters.
     pub paper: [u8; 3],
+    /// The directions x, y and z.
+    pub axes: [[u8; 3]; 3],
 }
 
 impl Inks {
@@ -48,12 +50,22 @@ impl Inks {
     pub fn of(theme: Theme) -> Self {
         match theme {
             Theme::Light => Self { text: [0x1c, 0x23, 0x2d], ..Self::PAPER },
-            Theme::Dark => Self { text: [0xd5, 0xdd, 0xe8], ring: [0x6c, 0xc4, 0xff], paper: [0x10, 0x12, 0x15] },
+            Theme::Dark => Self {
+                text: [0xd5, 0xdd, 0xe8],
+                ring: [0x6c, 0xc4, 0xff],
+                paper: [0x10, 0x12, 0x15],
+                axes: [[0xff, 0x7a, 0x6b], [0x7f, 0xd6, 0x8a], [0x7f, 0xb2, 0xff]],
+            },
         }
     }
 
     /// On white paper.
-    pub const PAPER: Self = Self { text: [0; 3], ring: [0x0b, 0x5c, 0xc4], paper: [0xff; 3] };
+    pub const PAPER: Self = Self {
+        text: [0; 3],
+        ring: [0x0b, 0x5c, 0xc4],
+        paper: [0xff; 3],
+        axes: [[0xc4, 0x2a, 0x1e], [0x1d, 0x7a, 0x2f], [0x1a, 0x52, 0xcc]],
+    };
 }
 
 /// What is drawn of [`Notes`], in picture coordinates, what matters most first.
@@ -76,15 +88,16 @@ const NARROW: (f64, f64) = (0.0, 0.0);
 /// Neighbours that are numbered.
 const ORDERED: usize = 48;
 
-/// What is seen of the notes. `lines` are the lines that are drawn from vertices, named as in the surface, which labels
-/// keep clear of; nothing hides anything where there is no `hider`.
+/// What is seen of the notes, in letters of `size` points beside dots of a radius of `dot`. `lines` are the lines that are
+/// drawn from vertices, named as in the surface, which labels keep clear of; nothing hides anything where there is no
+/// `hider`.
 pub(super) fn find(
     subject: &Subject<'_>,
     surface: &Surface,
     space: &Space,
     hider: Option<&Hider>,
     lines: &BTreeMap<u32, Vec<DVec2>>,
-    (style, size, inks): (&Style, f64, Inks),
+    (dot, size, inks): (f64, f64, Inks),
 ) -> Found {
     let mut found = Found::default();
     let writer = Writer { subject, surface, space, hider, inks, size };
@@ -93,7 +106,7 @@ pub(super) fn find(
         taken.extend(writer.ring(v, &mut found));
     }
     let Some(texts) = Texts::of(subject.mesh, subject.faces, subject.tint, &subject.notes.labels) else { return found };
-    let clearance = if style.vertices { f64::from(style.vertex_size) / 4.0 } else { 0.4 } + 1.8;
+    let clearance = dot + 0.26 * size;
     let note = |at: DVec2, (toward, gap): (DVec2, f64), element: usize| Note {
         name: "labels",
         at,
