@@ -19,6 +19,7 @@ use crate::stop::{Stop, Stopped};
 
 #[doc(hidden)]
 pub use native::Mutation;
+pub use native::keep_freed_memory;
 
 /// Who runs a program. All give the same results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -260,6 +260,7 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
     let look = arguments.look.look(reporter)?;
     let outputs = arguments.output.formats(reporter)?;
     reporter.begin();
+    vv::engine::keep_freed_memory();
 
     let compiling = Instant::now();
     let (program, found) = match arguments.still {

@@ -36,6 +36,7 @@ use effects::{Facts, OldReads};
 use run::{End, Executable, Fixed, Owned, Symbol};
 use translate::{Site, Translator, Unit};
 
+pub use run::keep_freed_memory;
 pub(crate) use translate::Refused;
 
 /// Native stack that one statement or expression may need while it is compiled.

@@ -23,6 +23,7 @@
 
 mod builtins;
 mod edges;
+mod keep;
 mod lists;
 mod memory;
 mod print;
@@ -46,6 +47,7 @@ use crate::engine::{Output, Settings};
 use crate::ir::{FunctionId, Program};
 use crate::mesh::{Mesh, Value, Values, Vertex, VertexSet};
 
+pub use keep::keep_freed_memory;
 use lists::List;
 pub(super) use print::type_number;
 pub(super) use symbols::{Symbol, symbols};

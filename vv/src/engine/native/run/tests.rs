@@ -1,4 +1,5 @@
-//! What happens where the system lets no memory be executable that was written, as hardened ones do.
+//! What happens where the system lets no memory be executable that was written, as hardened ones do, and what memory that
+//! is kept spares.
 
 use std::process::Command;
 use std::sync::Arc;
@@ -46,4 +47,40 @@ fn a_program_runs_in_the_interpreter_where_memory_cannot_become_executable() {
     let mut lines = Vec::new();
     machine.run(rule, &Mesh::new(), 1, &Settings::default(), &mut lines).unwrap();
     assert_eq!(lines, ["(1, 2, 3)"]);
+}
+
+#[cfg(target_env = "gnu")]
+const KEEPING: &str = "VV_TEST_KEEPING";
+
+/// Pages the system has handed out to this process.
+#[cfg(target_env = "gnu")]
+fn pages() -> i64 {
+    // SAFETY: it fills the structure, which may hold zeros.
+    unsafe {
+        let mut usage: libc::rusage = std::mem::zeroed();
+        assert_eq!(libc::getrusage(libc::RUSAGE_SELF, &raw mut usage), 0);
+        usage.ru_minflt
+    }
+}
+
+/// In a process of its own, for it holds for all of it from then on.
+#[test]
+#[cfg(target_env = "gnu")]
+fn memory_that_is_kept_is_not_handed_out_again() {
+    if std::env::var_os(KEEPING).is_none() {
+        let this = std::env::current_exe().unwrap();
+        let name = "engine::native::run::tests::memory_that_is_kept_is_not_handed_out_again";
+        let child = Command::new(this).args(["--exact", name, "--nocapture"]).env(KEEPING, "1").output().unwrap();
+        let said = String::from_utf8_lossy(&child.stdout);
+        assert!(child.status.success() && said.contains("1 passed"), "{said}");
+        return;
+    }
+    super::keep_freed_memory();
+    let pages_of = |bytes: usize| {
+        let before = pages();
+        std::hint::black_box(vec![1_u8; bytes]);
+        pages() - before
+    };
+    let (first, second) = (pages_of(20 << 20), pages_of(12 << 20));
+    assert!(first > 1000 && second < 100, "{first}, {second}");
 }
