@@ -395,7 +395,8 @@ fn growth(program: &Program) -> (u32, bool) {
             if let Node::Stmt(s) = node {
                 match &s.kind {
                     StmtKind::Make { items, .. } => made = made.max(items.len() as u32),
-                    StmtKind::Splice { item, ring: Ring::Of { .. }, .. } => {
+                    // Only rings at boundaries are spliced into beside a gap.
+                    StmtKind::Splice { item, anchor: Item::Vertex(_), ring: Ring::Of { .. }, .. } => {
                         least = FRESH_CAPACITY;
                         grows |= matches!(item, Item::Vertex(_));
                     }
