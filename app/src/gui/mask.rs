@@ -188,12 +188,14 @@ pub fn mark(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) ->
     true
 }
 
-/// The edges of the old mesh between what the vertex was made of.
+/// The edges of the old mesh between what the vertex was made of. Who has very many neighbours is left out: to look for
+/// one among them in each frame takes long.
 fn old_edges(overlay: &Overlay<'_>, old: &Mesh, all: &[(Vertex, &Group)]) {
+    const MOST: usize = 256;
+    let names = |v: Vertex, u: Vertex| old.ring(v).slots().len() <= MOST && old.ring(v).contains(Some(u));
     for &(v, _) in all {
         for &(u, _) in all {
-            let (there, back) = (old.ring(v).contains(Some(u)), old.ring(u).contains(Some(v)));
-            if there && (v < u || !back) {
+            if names(v, u) && (v < u || !names(u, v)) {
                 overlay.line(old.position(v), old.position(u), 1.6, overlay.inks.measure);
             }
         }
