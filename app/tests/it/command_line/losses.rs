@@ -1,20 +1,15 @@
 //! Outputs that cannot be kept: a pipe that nobody reads, a disk that is full, a folder that is missing. Whatever is
 //! written, the exit code is 3, and there is no half of a file.
 
+use vv::io::Format;
+
 use super::*;
 
-/// All that goes to stdout, and what it needs from stdin.
-const TO_STDOUT: [(&str, &str); 26] = [
+/// What goes to stdout beside meshes, and what it needs from stdin.
+const TO_STDOUT: [(&str, &str); 19] = [
     ("run triangle.vv", ""),
     ("run triangle.vv --summary json", ""),
     ("run triangle.vv --generations 0 --summary json", ""),
-    ("run triangle.vv -o - --format obj", ""),
-    ("run triangle.vv -o - --format off", ""),
-    ("run triangle.vv -o - --format ply", ""),
-    ("run triangle.vv -o - --format ply-text", ""),
-    ("run triangle.vv -o - --format stl", ""),
-    ("run triangle.vv -o - --format glb", ""),
-    ("run triangle.vv -o - --format gltf", ""),
     ("run triangle.vv -o - --format png --size 8x8", ""),
     ("run triangle.vv -o - --format svg", ""),
     ("run triangle.vv -o - --format eps", ""),
@@ -71,12 +66,17 @@ const THIRDS: (&str, &str) = (
      v$pos = `v$pos * 2 / 3 + sum / (3.0 * valence v); } }\n",
 );
 
+/// All that goes to stdout.
+fn to_stdout() -> Vec<(String, &'static str)> {
+    let meshes = Format::ALL.map(|format| (format!("run triangle.vv -o - --format {}", format.name()), ""));
+    meshes.into_iter().chain(TO_STDOUT.map(|(arguments, stdin)| (arguments.to_owned(), stdin))).collect()
+}
+
 /// How a command ends whose stdout is this.
-fn ends(folder: &Folder, arguments: &str, stdin: &str, stdout: Option<fs::File>) -> (Option<i32>, String) {
+fn ends(folder: &Folder, arguments: &str, stdin: &str, stdout: Stdio) -> (Option<i32>, String) {
     let mut command = folder.command(arguments);
     command.stdin(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.stdout(stdout.map_or_else(Stdio::piped, Stdio::from)).spawn().unwrap();
-    drop(child.stdout.take());
+    let mut child = command.stdout(stdout).spawn().unwrap();
     let _ = child.stdin.take().unwrap().write_all(stdin.as_bytes());
     let output = child.wait_with_output().unwrap();
     // What a program prints goes to stderr where stdout is taken.
@@ -87,10 +87,12 @@ fn ends(folder: &Folder, arguments: &str, stdin: &str, stdout: Option<fs::File>)
 fn a_closed_pipe_ends_every_output_quietly() {
     let folder = Folder::with(&[]);
     let before = folder.names();
-    for (arguments, stdin) in TO_STDOUT {
+    for (arguments, stdin) in to_stdout() {
         // A file beside it is not written either.
         let beside = if arguments.contains("-o -") { " -o beside.svg" } else { "" };
-        let (code, said) = ends(&folder, &format!("{arguments}{beside}"), stdin, None);
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let (code, said) = ends(&folder, &format!("{arguments}{beside}"), stdin, writer.into());
         assert_eq!((code, without_warnings(&said).as_str()), (Some(3), ""), "{arguments}");
         assert_eq!(folder.names(), before, "{arguments}");
     }
@@ -101,10 +103,10 @@ fn a_closed_pipe_ends_every_output_quietly() {
 fn a_full_disk_behind_stdout_is_told_by_every_output() {
     let folder = Folder::with(&[]);
     let before = folder.names();
-    for (arguments, stdin) in TO_STDOUT {
+    for (arguments, stdin) in to_stdout() {
         let beside = if arguments.contains("-o -") { " -o beside.svg" } else { "" };
         let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let (code, said) = ends(&folder, &format!("{arguments}{beside}"), stdin, Some(full));
+        let (code, said) = ends(&folder, &format!("{arguments}{beside}"), stdin, full.into());
         let said = without_warnings(&said);
         let expected = "error: <stdout>: no space is left on the device\n";
         assert_eq!((code, said.trim_start()), (Some(3), expected), "{arguments}");

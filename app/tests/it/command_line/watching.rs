@@ -78,7 +78,9 @@ const MADE: &str = "grow.vv: 6 vertices, 12 edges, 8 faces; 1 file in ";
 fn outputs_are_made_anew_when_any_file_that_is_read_changes() {
     let folder = folder();
     fs::write(folder.path("from.txt"), "front").unwrap();
-    let watching = Watching::begin(&folder, "grow.vv -i octahedron.obj -o a.obj --view from.txt");
+    fs::write(folder.path("look.json"), "{}").unwrap();
+    let watching =
+        Watching::begin(&folder, "grow.vv -i octahedron.obj -o a.obj --view from.txt --style look.json,no-edges");
     watching.makes(MADE);
     assert_eq!(first(&folder, "a.obj"), "2 0 0");
     rename_over(&folder, "more.vv", "double more() { return 3.0; }\n");
@@ -90,10 +92,12 @@ fn outputs_are_made_anew_when_any_file_that_is_read_changes() {
     rename_over(&folder, "octahedron.obj", &OCTAHEDRON.replace("v 1 0 0", "v 9 0 0"));
     watching.makes(MADE);
     assert_eq!(first(&folder, "a.obj"), "3 0 0");
-    fs::remove_file(folder.path("a.obj")).unwrap();
-    fs::write(folder.path("from.txt"), "back").unwrap();
-    watching.makes(MADE);
-    assert!(folder.path("a.obj").is_file());
+    for (name, text) in [("from.txt", "back"), ("look.json", "{\"page\": \"85mm\"}")] {
+        fs::remove_file(folder.path("a.obj")).unwrap();
+        fs::write(folder.path(name), text).unwrap();
+        watching.makes(MADE);
+        assert!(folder.path("a.obj").is_file(), "{name}");
+    }
 }
 
 #[test]
