@@ -238,10 +238,16 @@ fn walk(overlay: &Overlay<'_>, mesh: &Mesh, walking: &Walking, selected: &[Item]
     for &v in &path[..=last] {
         overlay.disc(mesh.position(v), 3.5, ink);
     }
-    // The three vertices of the rule have their names, outside of the face.
+    // The three vertices of the rule have their names, outside of the face; those seen close together only the newest.
     let center = overlay.see(middle).map(|spot| spot.at);
-    for &v in path[last.saturating_sub(2)..=last].iter().filter(|&&v| !selected.contains(&Item::Vertex(v))) {
-        let out = overlay.see(mesh.position(v)).zip(center).map(|(spot, center)| spot.at - center);
+    let mut named: Vec<eframe::egui::Pos2> = Vec::new();
+    for &v in path[last.saturating_sub(2)..=last].iter().rev().filter(|&&v| !selected.contains(&Item::Vertex(v))) {
+        let Some(spot) = overlay.see(mesh.position(v)) else { continue };
+        if named.iter().any(|at| at.distance(spot.at) < 24.0) {
+            continue;
+        }
+        named.push(spot.at);
+        let out = center.map(|center| spot.at - center);
         let out = out.filter(|out| out.length() > 1.0).map_or(vec2(0.0, -1.0), |out| out.normalized());
         overlay.label(mesh.position(v), out * vec2(20.0, 17.0), &v.to_string(), ink);
     }
