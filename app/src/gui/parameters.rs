@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     for (_, global, param) in program.params() {
         if global.span.file != file {
             file = global.span.file;
-            if let Some(source) = program.sources.file(file).filter(|_| file != FileId::MAIN) {
+            if let Some(source) = program.sources.file(file) {
                 let name = source.name.rsplit(['/', '\\']).next().unwrap_or_default();
                 ui.label(RichText::new(format!("of {name}")).small().weak());
             }

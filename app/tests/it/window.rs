@@ -523,6 +523,17 @@ fn a_text_whose_file_is_gone_is_asked_about_before_it_is_lost() {
 }
 
 #[test]
+fn parameters_stand_under_the_file_that_they_are_of() {
+    let mut window = octahedron();
+    write(&mut window, "#include \"mountain.vv\"\nparam double size = 1 in [0.5, 2];\nvoid f(mesh& S) { }\n");
+    let top = |name: &str| window.get_by_label(name).rect().top();
+    let own = format!("of {}", window.state().session().document.program.name);
+    let slider = |name: &str| window.get_by_role_and_label(Role::Slider, name).rect().top();
+    let order = [top("of mountain.vv"), slider("height"), top(&own), slider("size")];
+    assert!(order.is_sorted(), "{order:?}");
+}
+
+#[test]
 fn a_parameter_is_reset_alone_and_values_are_kept_under_a_name() {
     let mut window = octahedron();
     write(&mut window, "param double w = 0.5 in [0, 1]; // how much\nparam bool b = true;\nvoid f(mesh& S) { }\n");
