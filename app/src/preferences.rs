@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::inspect::measure::short;
+
 /// What the window opens with where no file is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Start {
@@ -12,6 +14,56 @@ pub enum Start {
     Surface,
     /// What was open when vv was closed.
     LastSession,
+}
+
+/// What a length of 1 is in the meshes that are looked at. Files do not say; nothing is converted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Unit {
+    /// Nobody asks.
+    #[default]
+    None,
+    /// A thousandth of a millimetre, as cells are measured.
+    Micrometre,
+    /// A thousandth of a metre.
+    Millimetre,
+    /// A hundredth of a metre.
+    Centimetre,
+    /// The metre.
+    Metre,
+    /// 25.4 mm.
+    Inch,
+}
+
+impl Unit {
+    /// All there are.
+    pub const ALL: [Self; 6] =
+        [Self::None, Self::Micrometre, Self::Millimetre, Self::Centimetre, Self::Metre, Self::Inch];
+
+    /// Behind a number: nothing, or a space and the sign.
+    #[must_use]
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::None => "",
+            Self::Micrometre => " µm",
+            Self::Millimetre => " mm",
+            Self::Centimetre => " cm",
+            Self::Metre => " m",
+            Self::Inch => " in",
+        }
+    }
+
+    /// A length as people read it.
+    #[must_use]
+    pub fn length(self, x: f64) -> String {
+        short(x) + self.suffix()
+    }
+
+    /// An area.
+    #[must_use]
+    pub fn area(self, x: f64) -> String {
+        let square = if self == Self::None { "" } else { "²" };
+        short(x) + self.suffix() + square
+    }
 }
 
 /// What can be set in the dialog of this name.
@@ -28,6 +80,8 @@ pub struct Preferences {
     pub tab_width: usize,
     /// MiB that generations are kept in.
     pub memory: usize,
+    /// Of lengths and areas.
+    pub unit: Unit,
     /// How pictures are saved.
     pub picture: PictureOptions,
 }
@@ -40,6 +94,7 @@ impl Default for Preferences {
             font_size: 13.0,
             tab_width: 2,
             memory: 2048,
+            unit: Unit::None,
             picture: PictureOptions::default(),
         }
     }
@@ -112,6 +167,16 @@ impl Default for PictureOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn measures_have_their_unit() {
+        let check = |unit: Unit, length: &str, area: &str| {
+            assert_eq!((unit.length(1.5), unit.area(0.25)), (length.to_owned(), area.to_owned()));
+        };
+        check(Unit::None, "1.5", "0.25");
+        check(Unit::Micrometre, "1.5 µm", "0.25 µm²");
+        check(Unit::Inch, "1.5 in", "0.25 in²");
+    }
 
     #[test]
     fn values_without_sense_are_mended() {

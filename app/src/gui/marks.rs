@@ -11,6 +11,7 @@ use crate::inspect::measure::{angle, short};
 use crate::inspect::ring::{Entry, Ring};
 use crate::inspect::selection::Item;
 use crate::inspect::walk::End;
+use crate::preferences::Unit;
 use crate::session::{Fault, Session, Walking};
 use crate::worker::Frame;
 
@@ -47,7 +48,7 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
             }
             ring(overlay, mesh, v);
         }
-        _ => measures(overlay, mesh, &selected),
+        _ => measures(overlay, mesh, &selected, session.preferences.unit),
     }
     for &item in &selected {
         chosen(overlay, mesh, item);
@@ -183,7 +184,7 @@ fn arc(center: DVec3, a: DVec3, b: DVec3, radius: f64) -> Vec<DVec3> {
 }
 
 /// The distance of two vertices, the angle of three.
-fn measures(overlay: &Overlay<'_>, mesh: &Mesh, selected: &[Item]) {
+fn measures(overlay: &Overlay<'_>, mesh: &Mesh, selected: &[Item], unit: Unit) {
     let vertices: Vec<Vertex> = selected
         .iter()
         .filter_map(|item| match item {
@@ -196,7 +197,7 @@ fn measures(overlay: &Overlay<'_>, mesh: &Mesh, selected: &[Item]) {
     match vertices[..] {
         [a, b] => {
             overlay.dashed(at(a), at(b), 2.0, ink);
-            overlay.label_between(at(a), at(b), &short(at(a).distance(at(b))), ink);
+            overlay.label_between(at(a), at(b), &unit.length(at(a).distance(at(b))), ink);
         }
         [a, b, c] => {
             overlay.dashed(at(a), at(b), 2.0, ink);

@@ -7,7 +7,7 @@ use eframe::egui::{
 use crate::camera::Up;
 use crate::command::{Command, Panel, Reload, ThemeChoice, ViewAction};
 use crate::navigation::{Preset, Turning};
-use crate::preferences::{Preferences, Start};
+use crate::preferences::{Preferences, Start, Unit};
 use crate::session::{Dialog, Session};
 
 /// Shows it.
@@ -118,6 +118,10 @@ fn window(ui: &mut Ui, session: &Session, preferences: &mut Preferences, command
             let all =
                 [(ThemeChoice::System, "as the system"), (ThemeChoice::Light, "light"), (ThemeChoice::Dark, "dark")];
             list(ui, "theme", session.theme, &all, |theme| commands.push(Command::SetTheme(theme)))
+        });
+        row(ui, "A length of 1 is", "the unit of measures; nothing is converted", |ui| {
+            let all = Unit::ALL.map(|unit| (unit, if unit == Unit::None { "no unit" } else { unit.suffix().trim() }));
+            list(ui, "unit", preferences.unit, &all, |unit| preferences.unit = unit)
         });
         row(ui, "Size of everything", "also Ctrl and +, −, 0", |ui| {
             let field = DragValue::new(&mut preferences.scale).range(Preferences::SCALES).speed(0.01);

@@ -10,7 +10,6 @@ use super::clicks::point_at;
 use super::overlay::{Inks, around};
 use super::widgets::{heading, icon};
 use crate::command::{Command, Inspect};
-use crate::inspect::measure::short;
 use crate::inspect::ring::{Entry, Ring};
 use crate::inspect::selection::Item;
 use crate::session::Session;
@@ -245,7 +244,7 @@ impl Panel<'_> {
             for (i, q) in ring.vertices().enumerate().take(ROWS) {
                 ui.weak((i + 1).to_string());
                 vertex_link(ui, self.session, commands, q, &q.to_string(), Some(&format!("neighbour {q}")));
-                ui.label(short(mesh.position(ring.of).distance(mesh.position(q))));
+                ui.label(self.session.preferences.unit.length(mesh.position(ring.of).distance(mesh.position(q))));
                 for k in 0..properties.len() {
                     let value = mesh.edge_value(k, ring.of, q);
                     ui.label(value.map_or_else(String::new, super::selection::value));

@@ -11,6 +11,7 @@ use crate::command::{Command, Inspect};
 use crate::inspect::measure::{FaceMeasure, angle, dihedral, short};
 use crate::inspect::selection::Item;
 use crate::inspect::walk::{Walk, face_left_of};
+use crate::preferences::Unit;
 use crate::session::{Dialog, Session, Walking};
 use crate::worker::Frame;
 
@@ -122,7 +123,7 @@ fn edge(ui: &mut Ui, session: &Session, frame: &Frame, ends: [Vertex; 2], comman
         vertex_link(ui, session, commands, q, &q.to_string(), None);
     });
     table(ui, "of the edge", |ui| {
-        row(ui, "Length", short(mesh.position(p).distance(mesh.position(q))));
+        row(ui, "Length", session.preferences.unit.length(mesh.position(p).distance(mesh.position(q))));
         let dihedral = dihedral(mesh, ends).map_or("–".to_owned(), |a| format!("{}°", short(a)));
         row(ui, "Dihedral angle", dihedral);
         for (side, edge) in [("Face to the left", [p, q]), ("Face to the right", [q, p])] {
@@ -149,12 +150,13 @@ fn face(ui: &mut Ui, session: &Session, frame: &Frame, side: [Vertex; 2], comman
     let mesh = &frame.mesh;
     let corners = Item::Face(side).corners(mesh);
     let points: Vec<_> = corners.iter().map(|&v| mesh.position(v)).collect();
-    let m = FaceMeasure::of(&points);
+    let (m, unit) = (FaceMeasure::of(&points), session.preferences.unit);
     table(ui, "of the face", |ui| {
         row(ui, "Face", format!("{} corners", corners.len()));
-        row(ui, "Area", short(m.area));
-        row(ui, "Perimeter", short(m.perimeter));
-        row(ui, "Off its plane", if m.off_plane <= 1e-12 * m.radius { "0".to_owned() } else { short(m.off_plane) });
+        row(ui, "Area", unit.area(m.area));
+        row(ui, "Perimeter", unit.length(m.perimeter));
+        // What rounding leaves is none.
+        row(ui, "Off its plane", unit.length(if m.off_plane <= 1e-12 * m.radius { 0.0 } else { m.off_plane }));
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 5.0;
@@ -202,17 +204,17 @@ fn several(ui: &mut Ui, session: &Session, frame: &Frame, selected: &[Item], com
         })
         .collect();
     match vertices.as_deref() {
-        Some(&[a, b]) => distance(ui, mesh, a, b),
-        Some(&[a, b, c]) => triangle(ui, mesh, [a, b, c]),
+        Some(&[a, b]) => distance(ui, mesh, session.preferences.unit, [a, b]),
+        Some(&[a, b, c]) => triangle(ui, mesh, session.preferences.unit, [a, b, c]),
         _ => {}
     }
 }
 
-fn distance(ui: &mut Ui, mesh: &Mesh, a: Vertex, b: Vertex) {
+fn distance(ui: &mut Ui, mesh: &Mesh, unit: Unit, [a, b]: [Vertex; 2]) {
     let between = mesh.position(b) - mesh.position(a);
     let named = |p: Vertex, q: Vertex| mesh.ring(p).contains(Some(q));
     table(ui, "of two vertices", |ui| {
-        row(ui, "Distance", short(between.length()));
+        row(ui, "Distance", unit.length(between.length()));
         row(ui, "From one to the other", value(Value::Vec(between)));
         let neighbours = match (named(a, b), named(b, a)) {
             (true, true) => "yes".to_owned(),
@@ -224,14 +226,14 @@ fn distance(ui: &mut Ui, mesh: &Mesh, a: Vertex, b: Vertex) {
     });
 }
 
-fn triangle(ui: &mut Ui, mesh: &Mesh, [a, b, c]: [Vertex; 3]) {
+fn triangle(ui: &mut Ui, mesh: &Mesh, unit: Unit, [a, b, c]: [Vertex; 3]) {
     let [p, q, r] = [a, b, c].map(|v| mesh.position(v));
     let degrees = |angle: Option<f64>| angle.map_or("–".to_owned(), |x| format!("{}°", short(x)));
     table(ui, "of three vertices", |ui| {
         row(ui, &format!("Angle at {b}"), degrees(angle(p, q, r)));
         row(ui, &format!("Angle at {a}"), degrees(angle(r, p, q)));
         row(ui, &format!("Angle at {c}"), degrees(angle(q, r, p)));
-        row(ui, "Area", short(FaceMeasure::of(&[p, q, r]).area));
+        row(ui, "Area", unit.area(FaceMeasure::of(&[p, q, r]).area));
     });
 }
 
