@@ -86,7 +86,10 @@ pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec
     if let Some(changed) = changed {
         *path = changed;
         select(ui, id, path, path.len(), path.len());
-        response.request_focus();
+        if !response.has_focus() {
+            // The keys go to the field again, as at the beginning.
+            ui.data_mut(|data| data.insert_temp(key(purpose), Listing { has_begun: false, ..listing.clone() }));
+        }
     } else if possible && (go || entered) {
         return Some(typed);
     } else if entered {
@@ -95,9 +98,13 @@ pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec
     None
 }
 
+fn key(purpose: Purpose) -> Id {
+    Id::unique("folder").with(purpose as u8)
+}
+
 /// What is in the folder that is typed. Reads a folder once.
 fn listing(ui: &Ui, path: &str, purpose: Purpose, field: Id) -> Listing {
-    let key = Id::unique("folder").with(purpose as u8);
+    let key = key(purpose);
     let folder = typed_path::folder(path);
     let pass = ui.ctx().cumulative_pass_nr();
     let known = ui.data(|data| data.get_temp::<Listing>(key)).filter(|known| known.used + 2 >= pass);

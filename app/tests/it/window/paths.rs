@@ -46,6 +46,7 @@ fn what_is_in_the_folder_is_offered_and_tab_completes_it() {
     click(&mut window, "models/");
     assert_eq!(typed(&window), format!("{path}models/"));
     type_on(&mut window, "to");
+    assert_eq!(typed(&window), format!("{path}models/to"));
     assert!(window.query_by_label("pawn.obj").is_none());
     window.key_press(Key::Tab);
     window.run_steps(2);
