@@ -40,6 +40,7 @@ use crate::preferences::Preferences;
 use crate::render::Size;
 use crate::scene::{Sphere, Style};
 use crate::store::{Orphan, Store};
+use crate::style_file::StyleFile;
 use crate::watch::Watch;
 use crate::worker::{Frame, Request, Ticket, Worker};
 use crate::{evaluation, library};
@@ -166,6 +167,8 @@ pub struct Session {
     store: Option<Store>,
     orphan: Option<Orphan>,
     keeping: keeping::Keeping,
+    /// The style file that was loaded last: what it says of figures is kept in those that are saved.
+    style_file: StyleFile,
     project: Option<keeping::OpenProject>,
     recent: Vec<PathBuf>,
     worker: Worker,
@@ -279,6 +282,7 @@ impl Session {
             store: None,
             orphan: None,
             keeping: keeping::Keeping::default(),
+            style_file: StyleFile::default(),
             project: None,
             recent: Vec::new(),
             worker,

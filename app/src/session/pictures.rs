@@ -125,7 +125,8 @@ impl Session {
     /// Writes how things are seen, for other meshes and for the command line.
     pub(super) fn save_style(&mut self, path: &Path) {
         let style = self.view.map_or(self.document.style, |(_, style)| style);
-        let file = StyleFile { style, annotations: self.document.annotations.clone(), ..StyleFile::default() };
+        let annotations = self.document.annotations.clone();
+        let file = StyleFile { style, annotations, ..self.style_file.clone() };
         let name = crate::document::file_name(path);
         match file.write(path) {
             Ok(()) => self.say(Severity::Note, format!("saved {name}; `vv run --style {name}` draws so")),
@@ -139,7 +140,8 @@ impl Session {
             Ok((file, _)) => {
                 let Style { theme, transparent, .. } = self.document.style;
                 self.apply(Command::SetStyle(Style { theme, transparent, ..file.style }));
-                self.apply(Command::SetAnnotations(file.annotations));
+                self.apply(Command::SetAnnotations(file.annotations.clone()));
+                self.style_file = file;
             }
             Err(error) => self.say(Severity::Error, error.located().message),
         }

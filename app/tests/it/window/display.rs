@@ -5,6 +5,7 @@ use std::sync::Arc;
 use app::annotate::{Arrows, Label, Quantity};
 use app::scene::{Axis, Surface};
 use app::session::Purpose;
+use app::style_file::StyleFile;
 
 use super::*;
 
@@ -158,8 +159,16 @@ fn a_style_is_saved_and_loaded_into_another_session() {
     assert_eq!(second.document.style, first.document.style);
     assert_eq!(second.document.annotations, first.document.annotations);
 
+    // What only figures have is not lost on the way through the window.
+    std::fs::write(&path, r#"{"page": "85mm", "lines": {"inner": "0.3"}}"#).unwrap();
+    second.chosen(Purpose::OpenStyle, path.clone());
+    second.chosen(Purpose::SaveStyle, path.clone());
+    let (kept, _) = StyleFile::read(&path.with_extension("json")).unwrap();
+    assert_eq!((kept.page.as_deref(), kept.lines["inner"].as_str()), (Some("85mm"), "0.3"));
+
+    let before = second.document.style;
     std::fs::write(&path, "{\n \"style\": {\"egdes\": true}}").unwrap();
     second.chosen(Purpose::OpenStyle, path);
     assert!(second.notice().is_some_and(|(_, text)| text.ends_with("mine:2:12: nothing is called `egdes` here")));
-    assert_eq!(second.document.style, first.document.style);
+    assert_eq!(second.document.style, before);
 }
