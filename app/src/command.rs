@@ -4,6 +4,7 @@
 //! carries them out. A new command is a variant here, a line in [`Command::describe`], a place in [`MENUS`], and its
 //! effect there.
 
+mod choosing;
 mod inspecting;
 mod matching;
 mod menus;
@@ -314,24 +315,7 @@ impl Command {
     pub fn describe(&self) -> Description {
         let (label, tooltip, shortcuts): (_, _, &'static [KeyboardShortcut]) = match self {
             Self::NewProgram => ("New program", "begin an empty program", const { &[ctrl(Key::N)] }),
-            Self::Choose(Purpose::OpenProgram) => ("Open program…", "open a .vv file", const { &[ctrl(Key::O)] }),
-            Self::Choose(Purpose::OpenMesh) => ("Open mesh…", "open a mesh file", const { &[ctrl_shift(Key::O)] }),
-            Self::Choose(Purpose::SaveProgram) => {
-                ("Save program as…", "save the program under another name", const { &[ctrl_shift(Key::S)] })
-            }
-            Self::Choose(Purpose::ExportMesh) => {
-                ("Save mesh as…", "write the mesh shown into a file; its extension says how", const { &[ctrl(Key::E)] })
-            }
-            Self::Choose(Purpose::OpenProject) => {
-                ("Open project…", "open program, mesh, parameters and view together", &[])
-            }
-            Self::Choose(Purpose::SaveProject) => {
-                ("Save project as…", "save program, mesh, parameters and view together", &[])
-            }
-            Self::Choose(Purpose::OpenStyle) => ("Load style…", "show things as a style file says", &[]),
-            Self::Choose(Purpose::SaveStyle) => {
-                ("Save style…", "save how things are shown, for other meshes and for `vv run --style`", &[])
-            }
+            Self::Choose(purpose) => return choosing::describe(*purpose),
             Self::ForgetRecent => ("Forget recent files", "empty the list of files that were open", &[]),
             Self::Save => {
                 ("Save", "save the program to its file, and the project if one is open", const { &[ctrl(Key::S)] })
@@ -424,8 +408,7 @@ impl Command {
             Self::SavePicture => {
                 ("Save picture as…", "write what is seen into a PNG file, in any size", const { &[key(Key::F12)] })
             }
-            Self::Choose(Purpose::SavePicture)
-            | Self::SetPreferences(_)
+            Self::SetPreferences(_)
             | Self::PictureTo(_)
             | Self::Exhibit { .. }
             | Self::Open(_)
@@ -469,7 +452,8 @@ impl Command {
             Self::End => session.document.generation < session.last_reached(),
             Self::Step | Self::Play => session.can_step(),
             Self::Stop => session.is_busy() || session.is_playing(),
-            Self::Choose(Purpose::ExportMesh) | Self::CopyImage | Self::SavePicture => session.frame().is_some(),
+            Self::Choose(purpose) => choosing::is_enabled(*purpose, session),
+            Self::CopyImage | Self::SavePicture => session.frame().is_some(),
             Self::ForgetRecent => !session.recent().is_empty(),
             Self::View(action) => action.is_enabled(session),
             Self::Pair(action) => action.is_enabled(session),

@@ -50,7 +50,7 @@ use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 
 pub use letters::Glyph;
-pub use mask::mask;
+pub use mask::{mask, mask_on};
 pub use notes::Notes;
 pub use page::{At, Drawing, Layer, Path, Sketch, Tile, Words, sheet};
 pub use raster::image;

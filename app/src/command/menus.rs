@@ -175,6 +175,7 @@ pub const MENUS: &[Menu] = &[
             &[
                 Command::Inspect(Inspect::OldRing),
                 Command::Inspect(Inspect::Mask),
+                Command::Choose(Purpose::SaveMask),
                 Command::Inspect(Inspect::ListProblems),
             ],
         ],

@@ -3,9 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use vv::masks::fraction;
+use vv::mesh::triangulate::newell;
 use vv::mesh::{Mesh, Vertex};
 
 use super::notes::{Inks, widest_gap};
@@ -68,6 +69,23 @@ pub fn mask(mesh: &Mesh, weights: &[(Vertex, f64)], place: impl Fn(Vertex) -> Op
         ..Sketch::default()
     }
     .centered()
+}
+
+/// The mask of a vertex, its old vertices where they are seen to lie on the mesh from outside.
+#[must_use]
+pub fn mask_on(mesh: &Mesh, weights: &[(Vertex, f64)], letters: f64) -> Sketch {
+    let normal = |v: Vertex| {
+        let around: Vec<DVec3> = mesh.ring(v).vertices().map(|u| mesh.position(u)).collect();
+        newell(&around).normalize_or_zero()
+    };
+    let normal: DVec3 = weights.iter().map(|&(v, w)| normal(v) * w.abs()).sum();
+    let normal = normal.try_normalize().unwrap_or(DVec3::Z);
+    // What is up in the world is up on the page.
+    let up = if normal.y.abs() < 0.99 { DVec3::Y } else { DVec3::NEG_Z };
+    let across = up.cross(normal).normalize_or(DVec3::X);
+    let up = normal.cross(across);
+    let place = |v: Vertex| Some(DVec2::new(mesh.position(v).dot(across), mesh.position(v).dot(up)));
+    mask(mesh, weights, place, letters)
 }
 
 /// As a fraction if it is one, with a minus sign.

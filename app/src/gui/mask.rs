@@ -10,7 +10,7 @@ use super::widgets::{heading, seconds};
 use crate::command::{Command, Inspect};
 use crate::inspect::mask::{Group, Mask};
 use crate::inspect::selection::Item;
-use crate::session::{MaskState, Session};
+use crate::session::{MaskState, Purpose, Session};
 use crate::worker::Frame;
 
 /// Old vertices that are listed and drawn.
@@ -113,6 +113,12 @@ impl List<'_> {
         let count: usize = mask.groups.iter().map(|group| group.vertices.len()).sum();
         if count > SHOWN {
             ui.weak(format!("… {} more", count - SHOWN));
+        }
+        if mask.is_affine {
+            let command = Command::Choose(Purpose::SaveMask);
+            if ui.button("Save as figure…").on_hover_text(command.describe().tooltip).clicked() {
+                commands.push(command);
+            }
         }
         for fault in &mask.faults {
             ui.add(Label::new(RichText::new(fault).color(ui.visuals().warn_fg_color)).wrap());

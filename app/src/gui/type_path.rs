@@ -35,6 +35,7 @@ pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec
         Purpose::OpenProject => ("Open project", "Open"),
         Purpose::SaveProject => ("Save project as", "Save"),
         Purpose::SavePicture => ("Save picture as", "Save"),
+        Purpose::SaveMask => ("Save mask as", "Save"),
         Purpose::OpenStyle => ("Load style", "Load"),
         Purpose::SaveStyle => ("Save style as", "Save"),
     };

@@ -24,6 +24,8 @@ pub enum Purpose {
     SaveProject,
     /// To save what is seen.
     SavePicture,
+    /// To save the mask of the selected vertex.
+    SaveMask,
     /// To see things as a file says.
     OpenStyle,
     /// To save how things are seen.
@@ -45,6 +47,7 @@ impl Purpose {
             Self::OpenMesh | Self::ExportMesh => &Format::EXTENSIONS,
             Self::OpenProject | Self::SaveProject => &[project::EXTENSION],
             Self::SavePicture => &["png", "svg", "eps", "pdf"],
+            Self::SaveMask => &["svg", "eps", "pdf"],
             Self::OpenStyle | Self::SaveStyle => &[style_file::EXTENSION],
         }
     }
@@ -66,6 +69,7 @@ impl Purpose {
             Self::OpenMesh | Self::ExportMesh => "meshes",
             Self::OpenProject | Self::SaveProject => "vv projects",
             Self::SavePicture => "pictures and figures",
+            Self::SaveMask => "figures",
             Self::OpenStyle | Self::SaveStyle => "styles",
         }
     }

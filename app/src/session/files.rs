@@ -343,6 +343,7 @@ impl Session {
             // The mesh and the picture of one generation stay when those of the next come.
             Purpose::ExportMesh => format!("{program}-{}.obj", self.shown_generation()),
             Purpose::SavePicture => format!("{program}-{}.png", self.shown_generation()),
+            Purpose::SaveMask => format!("{program}-mask.svg"),
             Purpose::SaveProject => format!("{program}.{}", project::EXTENSION),
             Purpose::SaveStyle => STYLE_NAME.to_owned(),
             Purpose::OpenProgram | Purpose::OpenMesh | Purpose::OpenProject | Purpose::OpenStyle => String::new(),
@@ -397,6 +398,7 @@ impl Session {
             Purpose::OpenProject => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_project(&path)),
             Purpose::SaveProject => self.save_project(&path),
             Purpose::SavePicture => self.picture_to(path),
+            Purpose::SaveMask => self.mask_to(&path),
             Purpose::OpenStyle => self.open_style(&path),
             Purpose::SaveStyle => self.save_style(&path),
         }

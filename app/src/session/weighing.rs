@@ -1,21 +1,27 @@
 //! The mask of the selected vertex, measured beside the window's thread and the worker's.
 
+use std::path::Path;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::sync::{Arc, Weak};
 use std::time::{Duration, Instant};
 
+use vv::diagnostic::Severity;
 use vv::engine::{Failure, FailureKind};
 use vv::mesh::Vertex;
 use vv::stop::{Stop, Stopped};
 
 use super::Session;
+use crate::figure::{self, Page, Settings, Tile};
 use crate::inspect::mask::Mask;
 use crate::inspect::selection::Item;
-use crate::trace;
 use crate::worker::Frame;
+use crate::{files, trace, typed_path};
 
 /// Then it is given up.
 const LIMIT: Duration = Duration::from_secs(60);
+
+/// Millimetres that the figure of a mask is wide.
+const PAGE: f64 = 85.0;
 
 /// The mask of what is selected, or why there is none.
 #[derive(Debug, Clone)]
@@ -64,6 +70,27 @@ impl Of {
 }
 
 impl Session {
+    /// Draws the mask of the selected vertex into a file, alone on a page.
+    pub(super) fn mask_to(&mut self, path: &Path) {
+        let (MaskState::Found(mask), Some(frame)) = (self.mask(), self.frame.clone()) else {
+            return self.say(Severity::Error, "no mask is shown");
+        };
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let (Some(format), Some(old)) = (figure::Format::from_extension(&extension), &frame.before) else {
+            return self.say(Severity::Error, "the name of a figure ends in .svg, .eps or .pdf");
+        };
+        let weights: Vec<(Vertex, f64)> = mask.weights().map(|(v, group)| (v, group.weight)).collect();
+        let settings = Settings { page: Page { width: PAGE, height: None }, ..Settings::default() };
+        let sketch = Some(figure::mask_on(old, &weights, settings.letters));
+        let Some(drawing) = figure::sheet(vec![Tile { sketch, caption: String::new() }], Some(1), &settings) else {
+            return self.say(Severity::Error, "nothing of the mask is seen");
+        };
+        match files::write(path, &figure::write(&drawing, format)) {
+            Ok(()) => self.say(Severity::Note, format!("saved {}", typed_path::shown(path))),
+            Err(error) => self.say(Severity::Error, error.located().message),
+        }
+    }
+
     /// The mask of the vertex that is selected.
     #[must_use]
     pub fn mask(&self) -> MaskState {

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use app::figure::{self, Format, Page, Settings, Sketch, Tile};
 use app::files;
 use clap::Args;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::masks::{Around, Class, Star};
-use vv::mesh::triangulate::newell;
 use vv::mesh::{Mesh, Vertex};
 use vv::source::Sources;
 
@@ -142,18 +141,7 @@ impl DrawingArguments {
 
     /// The mask of a vertex on a mesh, as it is seen from outside.
     pub fn of_mesh(&self, mesh: &Mesh, mask: &[(Vertex, f64)]) -> Drawn {
-        let normal = |v: Vertex| {
-            let around: Vec<DVec3> = mesh.ring(v).vertices().map(|u| mesh.position(u)).collect();
-            newell(&around).normalize_or_zero()
-        };
-        let normal: DVec3 = mask.iter().map(|&(v, w)| normal(v) * w.abs()).sum();
-        let normal = normal.try_normalize().unwrap_or(DVec3::Z);
-        // What is up in the world is up on the page.
-        let up = if normal.y.abs() < 0.99 { DVec3::Y } else { DVec3::NEG_Z };
-        let across = up.cross(normal).normalize_or(DVec3::X);
-        let up = normal.cross(across);
-        let place = |v: Vertex| Some(DVec2::new(mesh.position(v).dot(across), mesh.position(v).dot(up)));
-        let sketch = figure::mask(mesh, mask, place, self.settings().letters);
+        let sketch = figure::mask_on(mesh, mask, self.settings().letters);
         Drawn { place: None, weights: sorted(mask), caption: String::new(), sketch }
     }
 

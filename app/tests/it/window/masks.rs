@@ -2,7 +2,7 @@
 
 use app::command::Inspect;
 use app::inspect::selection::Item;
-use app::session::MaskState;
+use app::session::{MaskState, Purpose};
 use vv::mesh::Vertex;
 
 use super::inspecting::{known, on, seen, v};
@@ -75,6 +75,21 @@ fn list_and_picture_answer_each_other() {
     window.hover_at(corner);
     window.run_steps(3);
     assert_eq!(pointed(&window), None);
+}
+
+#[test]
+fn a_mask_is_saved_as_the_figure_that_the_command_line_draws() {
+    let (mut window, folder) = stepped(HALVES, 3);
+    let path = folder.path().join("mask.svg");
+    window.state_mut().session_mut().chosen(Purpose::SaveMask, path.clone());
+    assert!(!path.exists(), "no mask is shown");
+    press(&mut window, Key::M);
+    measured(&mut window);
+    window.get_by_label("Save as figure…");
+    window.state_mut().session_mut().chosen(Purpose::SaveMask, path.with_extension(""));
+    let saved = std::fs::read_to_string(&path).unwrap();
+    let words = |text: &str| saved.matches(&format!("\"{text}\"")).count();
+    assert_eq!((words("1/2"), words("1/6")), (1, 3), "{saved}");
 }
 
 #[test]
