@@ -49,9 +49,16 @@ fn new_line(line: &str, behind: &str, width: usize, events: &mut Vec<Event>) {
     let indentation: String = line.chars().take_while(|c| *c == ' ' || *c == '\t').collect();
     let opens = line.trim_end().ends_with('{');
     let deeper = " ".repeat(if opens { width } else { 0 });
-    events.push(Event::Text(format!("\n{indentation}{deeper}")));
+    // A text that is only the end of a line egui leaves to the key.
+    let mut line = |indentation: String| {
+        events.push(pressed(Key::Enter));
+        if !indentation.is_empty() {
+            events.push(Event::Text(indentation));
+        }
+    };
+    line(format!("{indentation}{deeper}"));
     if opens && behind.trim_start_matches(' ').starts_with('}') {
-        events.push(Event::Text(format!("\n{indentation}")));
+        line(indentation.clone());
         for _ in 0..=indentation.chars().count() {
             events.push(pressed(Key::ArrowLeft));
         }

@@ -110,6 +110,17 @@ fn enter_and_braces_keep_the_indentation() {
 }
 
 #[test]
+fn enter_ends_lines_that_begin_at_the_margin() {
+    let mut window = editing("// one");
+    keys(&mut window, Modifiers::NONE, Key::Enter);
+    type_text(&mut window, "// two");
+    keys(&mut window, Modifiers::NONE, Key::Enter);
+    keys(&mut window, Modifiers::NONE, Key::Enter);
+    type_text(&mut window, "// three");
+    assert_eq!(text(&window), "// one\n// two\n\n// three");
+}
+
+#[test]
 fn lines_become_comments_and_code_again() {
     let mut window = editing("a;\nb;");
     keys(&mut window, Modifiers::COMMAND, Key::A);
