@@ -43,6 +43,7 @@ impl<'a> Builder<'a> {
         self.faces.extend(faces);
         for class in Class::ALL {
             if let Some(line) = sketch.line(class, self.settings) {
+                let line = Line { width: light(class, line, &sketch.lines[class as usize], &at), ..line };
                 for (depth, pieces) in sketch.by_depth(class, self.settings.fade).into_iter().enumerate() {
                     let line = Line { color: faded(line.color, self.settings.fade, depth), ..line };
                     let pieces = pieces.iter().map(|ends| ends.map(|p| place(&p.xy()))).collect();
@@ -147,6 +148,22 @@ impl<'a> Builder<'a> {
         layers.extend(self.texts);
         Drawing { size: rounded(size), layers, is_exact: self.is_exact, crowded_out: 0 }
     }
+}
+
+/// The width of the lines of a class, thinner than by default where they are so short that they would black out what they
+/// lie on. In steps, so that figures side by side share theirs.
+fn light(class: Class, line: Line, pieces: &[[DVec3; 2]], at: impl Fn(DVec2) -> DVec2) -> f64 {
+    const PART: f64 = 0.07;
+    const STEP: f64 = 0.05;
+    // Who has chosen a width means it.
+    if !matches!(class, Class::Inner | Class::Hidden) || line.width != Settings::line(class).width || pieces.is_empty()
+    {
+        return line.width;
+    }
+    let mut lengths: Vec<f64> = pieces.iter().map(|[a, b]| at(a.xy()).distance(at(b.xy()))).collect();
+    let middle = lengths.len() / 2;
+    let (_, median, _) = lengths.select_nth_unstable_by(middle, f64::total_cmp);
+    ((PART * *median / STEP).ceil() * STEP).clamp(STEP, line.width)
 }
 
 /// A colour as it is at a depth: nearer to white.

@@ -21,8 +21,14 @@ pub(super) fn write(drawing: &Drawing) -> String {
     );
     // What is written into a string is written.
     let _ = write_letters(&mut text, &letters);
-    for layer in &drawing.layers {
-        let _ = write_layer(&mut text, layer, &letters);
+    for (i, layer) in drawing.layers.iter().enumerate() {
+        // Lines of one kind may have several widths; every name stands once.
+        let same = |other: &&Layer| match (layer, *other) {
+            (Layer::Lines { name, depth, .. }, Layer::Lines { name: n, depth: d, .. }) => (name, depth) == (n, d),
+            _ => false,
+        };
+        let before = drawing.layers[..i].iter().filter(same).count();
+        let _ = write_layer(&mut text, layer, before, &letters);
     }
     text.push_str("</svg>\n");
     text
@@ -53,7 +59,7 @@ fn pair(p: At) -> String {
     format!("{} {}", hundredths(p.x), hundredths(p.y))
 }
 
-fn write_layer(text: &mut String, layer: &Layer, letters: &[(Glyph, i32)]) -> std::fmt::Result {
+fn write_layer(text: &mut String, layer: &Layer, before: usize, letters: &[(Glyph, i32)]) -> std::fmt::Result {
     match layer {
         Layer::Faces(areas) => {
             // The hairline of the same colour covers the seams that smoothed edges leave.
@@ -64,7 +70,10 @@ fn write_layer(text: &mut String, layer: &Layer, letters: &[(Glyph, i32)]) -> st
             }
         }
         Layer::Lines { name, depth, line, paths } => {
-            let name = if *depth == 0 { (*name).to_owned() } else { format!("{name}-{depth}") };
+            let mut name = if *depth == 0 { (*name).to_owned() } else { format!("{name}-{depth}") };
+            if before > 0 {
+                name = format!("{name}.{}", before + 1);
+            }
             let (color, width) = (hex(line.color), hundredths((line.width * 100.0).round() as i32));
             write!(text, "<g id=\"{name}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\"")?;
             match line.dash {

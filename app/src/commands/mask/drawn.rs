@@ -20,6 +20,9 @@ const MOST: usize = 64;
 /// Millimetres that a mask takes, so that its weights can be read.
 const WIDTH: f64 = 54.0;
 
+/// How often a page may grow by a quarter for weights that have no room.
+const GROWTHS: usize = 4;
+
 /// Pixels of a PNG picture for each point: 300 per inch.
 const PIXELS_PER_POINT: f64 = 300.0 / 72.0;
 
@@ -34,7 +37,7 @@ pub struct DrawingArguments {
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Size of the figure: a width such as 85mm, or a width and a height that it fits into, such as 85x60mm. Default:
-    /// 54mm for each mask, three side by side.
+    /// three side by side, 54mm for each or as much as the weights need.
     #[arg(long, value_name = "W[xH]mm", requires = "output", value_parser = paper::page)]
     page: Option<Page>,
     /// Height of the weights in points. Default: 7.
@@ -172,8 +175,18 @@ impl DrawingArguments {
                 .report(&[warning.hint("one is drawn with `--vertex NUMBER` or `--valence N`")], &Sources::default());
             tiles.truncate(MOST);
         }
-        let (page, columns) = self.page(tiles.len());
-        let Some(drawing) = figure::sheet(tiles, columns, &Settings { page, ..self.settings() }) else {
+        let (mut page, columns) = self.page(tiles.len());
+        let draw = |page| figure::sheet(tiles.clone(), columns, &Settings { page, ..self.settings() });
+        let mut drawing = draw(page);
+        // All weights are to be read; where nobody asks for a size the page grows until they are.
+        for _ in 0..GROWTHS {
+            if self.page.is_some() || drawing.as_ref().is_none_or(|drawing| drawing.crowded_out == 0) {
+                break;
+            }
+            page.width *= 1.25;
+            drawing = draw(page);
+        }
+        let Some(drawing) = drawing else {
             return fail(reporter, Exit::Usage, error("there is no mask, so there is no figure"));
         };
         if drawing.crowded_out > 0 {

@@ -24,6 +24,23 @@ fn a_figure_goes_to_stdout_and_is_the_same_each_time() {
 }
 
 #[test]
+fn short_inner_lines_are_thin_unless_their_width_is_chosen() {
+    let folder = Folder::with(&[("split.vv", include_str!("../../../../assets/programs/paper-polyhedral.vv"))]);
+    let width = |more: &str| {
+        folder.check(&format!("run split.vv -i octahedron.obj -o a.svg --page 40mm {more}"), 0, "");
+        let text = folder.read("a.svg");
+        let inner = text.split("id=\"inner\"").nth(1).unwrap().to_owned();
+        inner.split("stroke-width=\"").nth(1).unwrap().split('"').next().unwrap().to_owned()
+    };
+    assert_eq!(width("-n 0"), ".35");
+    assert_eq!(width("-n 5"), ".2");
+    assert_eq!(width("-n 5 --line inner=0.3"), ".3");
+    folder.check("run split.vv -i octahedron.obj --generations 0,5 -n 5 -o a.svg --page 80mm", 0, "");
+    let text = folder.read("a.svg");
+    assert!(text.contains("id=\"inner\"") && text.contains("id=\"inner.2\""), "each name once");
+}
+
+#[test]
 fn lines_are_drawn_as_asked_for() {
     let folder = Folder::with(&[]);
     folder.check(
