@@ -8,7 +8,7 @@ use clap::Args;
 use super::look::LookArguments;
 use super::output::OutputArguments;
 use super::report::Reporter;
-use super::run::{self, Way};
+use super::run;
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail};
 
 const EXAMPLES: &str = "\
@@ -55,5 +55,5 @@ pub fn render(arguments: Arguments, began: Instant) -> Result<(), Exit> {
         return fail(&reporter, Exit::Usage, diagnostic.hint("`vv mesh convert` writes meshes"));
     }
     let run = run::Arguments::still(meshes, turntable, output, look, importing, reporting);
-    run::make(&run, began, &Way::default()).map(drop)
+    run::run(&run, began)
 }

@@ -157,7 +157,11 @@ enum EngineChoice {
 
 /// Runs the program; `began` is when the process did.
 pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
-    make(arguments, began, &Way::default()).map(drop)
+    let read = arguments.read();
+    // A mesh may take the place of the one that it came from, and a result that of its reference.
+    let replaced: Vec<_> = arguments.input.iter().chain(&arguments.reference).collect();
+    let read_only = read.into_iter().filter(|path| !replaced.contains(&path)).collect();
+    make(arguments, began, &Way { read_only, ..Way::default() }).map(drop)
 }
 
 /// How a run is made that is one of many.
@@ -538,13 +542,13 @@ fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit>
     Ok(())
 }
 
-/// What is read anew whenever it has changed must not be written by that.
+/// What a run goes by must not be written by it.
 fn not_read(plan: &Plan, read_only: &[PathBuf]) -> Result<(), Box<Diagnostic>> {
     let place = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
     let read: BTreeSet<_> = read_only.iter().filter_map(|path| place(path)).collect();
     match plan.all_targets().iter().find(|target| place(target.path()).is_some_and(|path| read.contains(&path))) {
         Some(both) if !read.is_empty() => {
-            let message = format!("{} is read and written, so there would be no end of it", both.path().display());
+            let message = format!("{} is read here, so it is not written", both.path().display());
             Err(Box::new(error(message)))
         }
         _ => Ok(()),

@@ -30,6 +30,18 @@ fn each_extension_gets_its_format() {
 }
 
 #[test]
+fn what_a_run_goes_by_is_not_written_over() {
+    let folder = Folder::with(&[("look.json", "{}")]);
+    let (program, style) = (folder.read("move.vv"), folder.read("look.json"));
+    folder.check("run move.vv -i octahedron.obj -o ./move.vv --format obj", 2, "move.vv is read here");
+    folder.check("render octahedron.obj --style look.json -o look.json --format svg", 2, "look.json is read here");
+    assert_eq!((folder.read("move.vv"), folder.read("look.json")), (program, style));
+    // A mesh may change in its place.
+    folder.check("run move.vv -i octahedron.obj -o octahedron.obj", 0, "");
+    assert_eq!(vertices(&folder.read("octahedron.obj"))[..2], ["2 0 0", "0 0 0"]);
+}
+
+#[test]
 fn help_names_every_extension() {
     for arguments in ["run --help", "mesh convert --help", "--help"] {
         let text = check(arguments, 0, "").stdout;

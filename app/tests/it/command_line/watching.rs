@@ -151,7 +151,11 @@ fn what_can_never_be_made_anew_is_refused() {
     check("watch - -i octahedron.obj", 2, "`vv watch` reads files, and what comes from stdin does not change");
     check("watch move.vv -i -", 2, "`vv run` reads stdin");
     check("watch move.vv -i octahedron.obj -o - --format obj", 2, "what went to stdout cannot be made anew");
-    check("watch move.vv -i octahedron.obj -o ./octahedron.obj", 2, "octahedron.obj is read and written");
+    check(
+        "watch move.vv -i octahedron.obj -o ./octahedron.obj",
+        2,
+        "octahedron.obj is read here, so it is not written",
+    );
     check("watch move.vv -i octahedron.obj -o a.xyz", 2, "`-o a.xyz` has no extension");
     check("watch move.vv -i octahedron.obj -D for=1", 2, "for");
 }
