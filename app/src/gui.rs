@@ -68,6 +68,8 @@ use crate::viewpoint::Viewpoint;
 
 /// Points of width that the viewport keeps, whatever stands beside it.
 const VIEWPORT: f32 = 170.0;
+/// And at least this part of the window.
+const VIEWPORT_PART: f32 = 0.33;
 /// Least width of the inspector.
 const INSPECTOR: f32 = 200.0;
 
@@ -229,6 +231,7 @@ impl App {
         };
         let session = &self.session;
         let width = ui.available_width();
+        let viewport = VIEWPORT.max(width * VIEWPORT_PART);
         let inspector = if session.panels.inspector { INSPECTOR } else { 0.0 };
         let span = trace::span("window: bars");
         egui::Panel::top("menu").frame(theme::bar(ui)).show(ui, |ui| menu::show(ui, session, commands));
@@ -239,7 +242,7 @@ impl App {
             egui::Panel::left("left")
                 .frame(egui::Frame::NONE)
                 .default_size((width * 0.36).clamp(240.0, 560.0))
-                .size_range(200.0..=(width - inspector - VIEWPORT).max(220.0))
+                .size_range(200.0..=(width - inspector - viewport).max(220.0))
                 .show(ui, |ui| {
                     let height = ui.available_height();
                     let mut below = None;
@@ -281,7 +284,7 @@ impl App {
             egui::Panel::right("inspector")
                 .frame(theme::panel(ui))
                 .default_size((width * 0.2).clamp(190.0, 290.0))
-                .size_range(INSPECTOR..=(ui.available_width() - VIEWPORT).clamp(INSPECTOR, width * 0.5))
+                .size_range(INSPECTOR..=(ui.available_width() - viewport).clamp(INSPECTOR, width * 0.5))
                 .show(ui, |ui| inspector::show(ui, session, commands));
         }
         if session.panels.timeline {

@@ -1,6 +1,6 @@
 //! Questions that must be answered before anything else.
 
-use eframe::egui::{Context, Frame, Id, Margin, Modal, Ui};
+use eframe::egui::{Context, Frame, Id, Key, Margin, Modal, Ui};
 
 use super::gallery::Gallery;
 use super::{cheat_sheet, palette, preferences, saving, selection, type_path, widgets};
@@ -22,17 +22,18 @@ pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, command
     let name = project.clone().unwrap_or_else(|| session.document.program.name.clone());
     let Some(dialog) = &mut session.dialog else { return };
     let mut chosen = None;
+    let enter = ctx.input(|i| i.key_pressed(Key::Enter)) && ctx.memory(|m| m.focused().is_none());
     let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
     let response = Modal::new(Id::unique("dialog")).frame(frame).show(ctx, |ui| {
         ui.set_width(380.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         match dialog {
-            Dialog::Unsaved { .. } => unsaved(ui, &name, project.is_some(), commands),
+            Dialog::Unsaved { .. } => unsaved(ui, &name, project.is_some(), enter, commands),
             Dialog::TypePath { purpose, path, .. } => {
                 if let Some(path) = type_path::show(ui, *purpose, path, commands) {
                     chosen = Some((*purpose, path));
                 }
             }
-            Dialog::Recover { name } => recover(ui, name, commands),
+            Dialog::Recover { name } => recover(ui, name, enter, commands),
             _ => {} // shown above
         }
     });
@@ -44,7 +45,7 @@ pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, command
     }
 }
 
-fn unsaved(ui: &mut Ui, name: &str, is_project: bool, commands: &mut Vec<Command>) {
+fn unsaved(ui: &mut Ui, name: &str, is_project: bool, enter: bool, commands: &mut Vec<Command>) {
     ui.heading(format!("Save changes to {name}?"));
     ui.add_space(4.0);
     ui.label(if is_project {
@@ -54,7 +55,7 @@ fn unsaved(ui: &mut Ui, name: &str, is_project: bool, commands: &mut Vec<Command
     });
     ui.add_space(12.0);
     ui.horizontal(|ui| {
-        if ui.add(widgets::first_choice(ui, "Save")).clicked() {
+        if ui.add(widgets::first_choice(ui, "Save")).clicked() || enter {
             commands.push(Command::AnswerUnsaved(Answer::Save));
         }
         if ui.button("Don't save").clicked() {
@@ -66,13 +67,13 @@ fn unsaved(ui: &mut Ui, name: &str, is_project: bool, commands: &mut Vec<Command
     });
 }
 
-fn recover(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+fn recover(ui: &mut Ui, name: &str, enter: bool, commands: &mut Vec<Command>) {
     ui.heading("Bring back unsaved work?");
     ui.add_space(4.0);
     ui.label(format!("vv ended unexpectedly while {name} had changes that were not saved. They were kept."));
     ui.add_space(12.0);
     ui.horizontal(|ui| {
-        if ui.add(widgets::first_choice(ui, "Bring back")).clicked() {
+        if ui.add(widgets::first_choice(ui, "Bring back")).clicked() || enter {
             commands.push(Command::AnswerRecovery(true));
         }
         if ui.button("Throw away").clicked() {

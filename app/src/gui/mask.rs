@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             plain(ui, &format!("generation {before} is not kept: go there and step again"));
         }
         MaskState::Measuring(since) => {
-            ui.horizontal(|ui| {
+            ui.horizontal_wrapped(|ui| {
                 // What is done at once needs no clock.
                 let long = since > Duration::from_millis(300);
                 let time = if long { format!(", {}", seconds(since.as_secs_f64())) } else { String::new() };

@@ -39,6 +39,8 @@ static SECTIONS: LazyLock<Vec<Section>> = LazyLock::new(|| read(MANUAL));
 #[derive(Default)]
 pub struct Reference {
     query: String,
+    /// When it was shown last.
+    shown: u64,
     /// The section to bring in sight.
     wanted: Option<usize>,
 }
@@ -71,6 +73,12 @@ impl Reference {
         let fits = |section: &Section| query.is_empty() || section.text().to_lowercase().contains(&query);
         ui.horizontal_wrapped(|ui| {
             let field = ui.add(TextEdit::singleline(&mut self.query).hint_text("find").desired_width(120.0));
+            // Who has opened it looks for something; what is typed is not meant for the program any more.
+            let pass = ui.ctx().cumulative_pass_nr();
+            if pass > self.shown + 1 {
+                field.request_focus();
+            }
+            self.shown = pass;
             field.accessible_name("Find in the reference");
             for (i, section) in SECTIONS.iter().enumerate().filter(|(_, s)| fits(s)) {
                 if ui.link(&section.title).clicked() {

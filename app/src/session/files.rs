@@ -386,6 +386,10 @@ impl Session {
         };
         let path = purpose.with_extension(path);
         match purpose {
+            // What a file is its name says, whatever was asked for.
+            Purpose::OpenProgram | Purpose::OpenMesh if is_program(&path) || is_project(&path) || is_mesh(&path) => {
+                self.carry_out(Command::Open(path));
+            }
             Purpose::OpenProgram => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_program(&path)),
             Purpose::OpenMesh => self.use_mesh(MeshSource::File(path)),
             Purpose::SaveProgram => {
@@ -470,6 +474,12 @@ fn offers_file_dialog() -> bool {
 /// Whether a path is that of a program.
 pub(super) fn is_program(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("vv"))
+}
+
+/// Whether a path is that of a mesh.
+fn is_mesh(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    Format::EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known))
 }
 
 /// Whether a path is that of a project.

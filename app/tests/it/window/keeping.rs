@@ -75,7 +75,9 @@ fn after_a_crash_unsaved_text_is_brought_back() {
     let mut window = open_with(folder.path());
     assert!(matches!(&window.state().session().dialog, Some(Dialog::Recover { name }) if name == "loop.vv"));
     window.run_steps(2);
-    click(&mut window, "Bring back");
+    // The choice that stands out is that of Enter.
+    window.get_by_label("Bring back");
+    press(&mut window, Key::Enter);
     let session = window.state().session();
     assert_eq!(&*session.document.program.text, "// typed and never saved\n");
     assert!(session.document.program.is_modified());

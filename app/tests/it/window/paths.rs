@@ -38,6 +38,17 @@ fn folder() -> (tempfile::TempDir, String) {
 }
 
 #[test]
+fn a_mesh_is_opened_as_a_mesh_whatever_was_asked_for() {
+    let (_folder, path) = folder();
+    let mut window = octahedron();
+    let text = window.state().session().document.program.text.clone();
+    window.state_mut().session_mut().chosen(Purpose::OpenProgram, format!("{path}models/pawn.obj").into());
+    let document = &window.state().session().document;
+    assert_eq!(document.mesh, MeshSource::File(format!("{path}models/pawn.obj").into()));
+    assert_eq!(document.program.text, text);
+}
+
+#[test]
 fn what_is_in_the_folder_is_offered_and_tab_completes_it() {
     let (_folder, path) = folder();
     let mut window = octahedron();
