@@ -150,20 +150,30 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The width of the lines of a class, thinner than by default where they are so short that they would black out what they
-/// lie on. In steps, so that figures side by side share theirs.
+/// The width of the lines of a class, thinner than by default where they would black out what they lie on: inner lines by
+/// how short they are, outlines by how much of the picture they cover. In steps, so that figures side by side share theirs.
 fn light(class: Class, line: Line, pieces: &[[DVec3; 2]], at: impl Fn(DVec2) -> DVec2) -> f64 {
-    const PART: f64 = 0.07;
     const STEP: f64 = 0.05;
     // Who has chosen a width means it.
-    if !matches!(class, Class::Inner | Class::Hidden) || line.width != Settings::line(class).width || pieces.is_empty()
-    {
+    if line.width != Settings::line(class).width || pieces.is_empty() {
         return line.width;
     }
-    let mut lengths: Vec<f64> = pieces.iter().map(|[a, b]| at(a.xy()).distance(at(b.xy()))).collect();
-    let middle = lengths.len() / 2;
-    let (_, median, _) = lengths.select_nth_unstable_by(middle, f64::total_cmp);
-    ((PART * *median / STEP).ceil() * STEP).clamp(STEP, line.width)
+    let ends = || pieces.iter().map(|[a, b]| [at(a.xy()), at(b.xy())]);
+    let mut lengths: Vec<f64> = ends().map(|[a, b]| a.distance(b)).collect();
+    let most = match class {
+        Class::Inner | Class::Hidden => {
+            let middle = lengths.len() / 2;
+            0.07 * *lengths.select_nth_unstable_by(middle, f64::total_cmp).1
+        }
+        Class::Outline | Class::Boundary | Class::Crease | Class::Intersection => {
+            let nowhere = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+            let (low, high) = ends().flatten().fold(nowhere, |(low, high), p| (low.min(p), high.max(p)));
+            0.12 * (high - low).element_product() / lengths.iter().sum::<f64>()
+        }
+        Class::Control => line.width,
+    };
+    // What lies in a line covers nothing.
+    if most > 0.0 { ((most / STEP).ceil() * STEP).clamp(STEP, line.width) } else { line.width }
 }
 
 /// A colour as it is at a depth: nearer to white.
