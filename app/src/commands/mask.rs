@@ -178,20 +178,22 @@ impl Bench<'_> {
         measure(&self.machine, self.rule, mesh, &self.settings)
     }
 
+    fn ended(&self, failure: Failure) -> Exit {
+        self.reporter.report(&[*failure.diagnostic], &self.machine.program().sources);
+        match failure.kind {
+            FailureKind::Program => Exit::Program,
+            FailureKind::Budget | FailureKind::Stopped(_) => Exit::Budget,
+            FailureKind::OutputClosed => Exit::File,
+        }
+    }
+
     fn of_mesh(&self, arguments: &Arguments, path: &std::path::Path) -> Result<Table, Exit> {
         let (mesh, _) = input::mesh(path, &arguments.importing, self.reporter)?;
         if mesh.vertex_count() > MOST {
             let message = format!("{} vertices take too long: each three of them need a step", mesh.vertex_count());
             return fail(self.reporter, Exit::Budget, error(message).hint(format!("take a mesh of at most {MOST}")));
         }
-        let masks = self.measure(&mesh).map_err(|failure| {
-            self.reporter.report(&[*failure.diagnostic], &self.machine.program().sources);
-            match failure.kind {
-                FailureKind::Program => Exit::Program,
-                FailureKind::Budget | FailureKind::Stopped(_) => Exit::Budget,
-                FailureKind::OutputClosed => Exit::File,
-            }
-        })?;
+        let masks = self.measure(&mesh).map_err(|failure| self.ended(failure))?;
         let of = |mask: &[(Vertex, f64)]| weights(mask, |v| v.to_string(), &[]);
         let mut rows: Vec<Mask> = Vec::new();
         let mut seen: Vec<Vec<f64>> = Vec::new();
@@ -241,6 +243,8 @@ impl Bench<'_> {
         };
         let mut table =
             Table { around: Some(if around == Around::Triangles { TRIANGLES } else { "quads" }), ..Table::default() };
+        // What is wrong, and where.
+        let mut faults: Vec<(String, Vec<String>)> = Vec::new();
         let inside = valences.iter().map(|&n| (n, false));
         // A regular boundary vertex has 3 sectors of triangles or 2 quads; one on either side shows the rule.
         let boundary = (1..=5).filter(|_| arguments.valence.is_empty());
@@ -253,7 +257,12 @@ impl Bench<'_> {
             };
             let row = match judge(&self.machine, self.rule, &star, &self.settings) {
                 Ok(found) => {
-                    table.warnings.extend(found.faults.iter().map(|fault| format!("{title}: {fault}")));
+                    for fault in found.faults.iter().map(ToString::to_string) {
+                        match faults.iter_mut().find(|(other, _)| *other == fault) {
+                            Some((_, places)) => places.push(title.clone()),
+                            None => faults.push((fault, vec![title.clone()])),
+                        }
+                    }
                     if arguments.drawing.is_asked_for() {
                         let draw = |class| arguments.drawing.of_star(&star, around, class);
                         table.drawn.extend(found.classes.iter().map(draw));
@@ -261,10 +270,16 @@ impl Bench<'_> {
                     let masks = found.classes.iter().map(|class| named(&star, class)).collect();
                     Row { title, masks, failure: None }
                 }
+                // Elsewhere the rule may do.
+                Err(failure) if failure.kind != FailureKind::Program => return Err(self.ended(failure)),
                 Err(failure) => Row { title, masks: Vec::new(), failure: Some(failure.diagnostic.message.clone()) },
             };
             table.rows.push(row);
         }
+        table.warnings.extend(faults.into_iter().map(|(fault, places)| match &places[..] {
+            [place] => format!("{place}: {fault}"),
+            places => format!("{} and {} more: {fault}", places[0], places.len() - 1),
+        }));
         Ok(table)
     }
 

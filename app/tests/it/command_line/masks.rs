@@ -89,3 +89,10 @@ fn a_figure_of_masks_that_cannot_be_made_leaves_nothing() {
     folder.check("mask move.vv -i octahedron.obj --vertex 9 -o a.svg", 2, "the result has no vertex v9");
     assert!(!folder.path("a.svg").exists());
 }
+
+#[test]
+fn a_rule_that_does_not_end_ends_the_search() {
+    let folder = Folder::with(&[]);
+    let ended = folder.check("mask endless.vv --timeout 0.2", 4, "the time allowed for a step is over");
+    assert!(ended.stdout.is_empty(), "{}", ended.stdout);
+}
