@@ -241,6 +241,8 @@ fn triangle(ui: &mut Ui, mesh: &Mesh, unit: Unit, [a, b, c]: [Vertex; 3]) {
 fn walk(ui: &mut Ui, session: &Session, walking: &Walking, commands: &mut Vec<Command>) {
     let Walking { walk, at, .. } = walking;
     heading(ui, "Edmonds' walk");
+    let sense = "the paper's rule: clockwise, with the face on the right; faces are listed the other way round";
+    ui.add(eframe::egui::Label::new(RichText::new(sense).weak()).wrap());
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let playing = walking.playing.is_some();
