@@ -37,6 +37,9 @@ pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
     let viewpoint = arguments.output.viewpoint(&reporter)?;
     let look = arguments.look.look(&reporter)?;
     let targets = arguments.output.targets(&reporter)?;
+    if targets.iter().any(|target| target.figure().is_some()) {
+        look.warn_of_figures(&reporter);
+    }
     let (mesh, _) = input::mesh(&arguments.mesh, &arguments.importing, &reporter)?;
     let faces = match within(arguments.importing.timeout.0, |stop| faces(&mesh, stop)) {
         Ok(faces) => faces,

@@ -7,8 +7,10 @@ use app::figure::{Class, Line, Notes, Page, Settings};
 use app::inspect::lineage::Lineage;
 use app::scene::{Axis, Cut, Style, Surface, Theme};
 use clap::Args;
+use vv::diagnostic::{Diagnostic, Severity};
 use vv::mesh::faces::Faces;
 use vv::mesh::{Mesh, Vertex};
+use vv::source::Sources;
 
 use super::report::Reporter;
 use super::{Exit, error, fail, paper, style};
@@ -129,6 +131,24 @@ pub struct Past {
     pub first: Option<Mesh>,
     /// Which vertex of a generation is which of another.
     pub lineage: Lineage,
+}
+
+impl Look {
+    /// Says what of it figures leave out.
+    pub fn warn_of_figures(&self, reporter: &Reporter) {
+        let asked = [
+            (self.annotations.arrows != Arrows::Nothing, "arrows"),
+            (self.style.grid, "the grid"),
+            (self.style.occlusion, "occlusion"),
+            (self.style.surface != Surface::default(), "lines of reflection"),
+        ];
+        let missing: Vec<&str> = asked.into_iter().filter_map(|(is_asked, what)| is_asked.then_some(what)).collect();
+        if !missing.is_empty() {
+            let message = format!("figures leave out {}", missing.join(", "));
+            let warning = Diagnostic::new(Severity::Warning, None, message);
+            reporter.report(&[warning.hint("a picture, .png, shows all")], &Sources::default());
+        }
+    }
 }
 
 impl LookArguments {

@@ -300,6 +300,9 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
     }
     not_read(&plan, &way.read_only).map_err(usage)?;
     output::check_places(&plan.all_targets(), reporter)?;
+    if plan.all_targets().iter().any(|target| target.figure().is_some()) {
+        look.warn_of_figures(reporter);
+    }
     let reference = arguments.reference.as_deref().map(|path| Reference::read(path, &arguments.importing, reporter));
     let reference = reference.transpose()?;
 

@@ -24,6 +24,16 @@ fn a_figure_goes_to_stdout_and_is_the_same_each_time() {
 }
 
 #[test]
+fn what_figures_leave_out_is_said() {
+    let folder = Folder::with(&[]);
+    let said = "figures leave out arrows, the grid, lines of reflection";
+    let look = "--arrows vertex-normals --style grid,reflection-lines,smooth";
+    folder.check(&format!("render octahedron.obj -o a.svg {look}"), 0, said);
+    folder.check(&format!("mesh convert octahedron.obj -o a.svg {look}"), 0, said);
+    folder.check("render octahedron.obj -o a.svg --style smooth", 0, "");
+}
+
+#[test]
 fn short_inner_lines_are_thin_unless_their_width_is_chosen() {
     let folder = Folder::with(&[("split.vv", include_str!("../../../../assets/programs/paper-polyhedral.vv"))]);
     let width = |more: &str| {
