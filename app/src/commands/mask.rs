@@ -21,7 +21,8 @@ use vv::stop::Stop;
 
 use super::info::json;
 use super::report::{Reporter, write_stdout};
-use super::run::{parameters, unknown_rule};
+use super::run::checks::unknown_rule;
+use super::run::parameters;
 use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input};
 use drawn::{DrawingArguments, Drawn};
 

@@ -1,6 +1,7 @@
 //! `vv run`
 
 mod cases;
+pub(super) mod checks;
 mod names;
 pub(super) mod parameters;
 mod plan;
@@ -8,8 +9,7 @@ mod sheets;
 mod steps;
 mod summary;
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use image::RgbaImage;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::engine::{Engine, Limits, Machine, Settings};
-use vv::ir::{FunctionId, Program};
+use vv::ir::FunctionId;
 use vv::mesh::Mesh;
 use vv::mesh::faces::{Faces, faces};
 use vv::mesh::statistics::statistics;
@@ -32,10 +32,7 @@ use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::picture::{self, Exhibit, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
-use super::{
-    DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, closest, error, fail, info, input, list, output,
-    warnings_of,
-};
+use super::{DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, error, fail, info, input, output, warnings_of};
 use cases::Case;
 use plan::{Given, Plan, Sheet};
 use sheets::Exhibits;
@@ -157,11 +154,7 @@ enum EngineChoice {
 
 /// Runs the program; `began` is when the process did.
 pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
-    let read = arguments.read();
-    // A mesh may take the place of the one that it came from, and a result that of its reference.
-    let replaced: Vec<_> = arguments.input.iter().chain(&arguments.reference).collect();
-    let read_only = read.into_iter().filter(|path| !replaced.contains(&path)).collect();
-    make(arguments, began, &Way { read_only, ..Way::default() }).map(drop)
+    make(arguments, began, &Way::default()).map(drop)
 }
 
 /// How a run is made that is one of many.
@@ -169,7 +162,7 @@ pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
 pub struct Way {
     /// Ends it.
     pub halt: Halt,
-    /// Files that may not be written.
+    /// Files that may not be written, besides those that the run goes by.
     pub read_only: Vec<PathBuf>,
     /// Whether what came out is counted.
     pub counting: bool,
@@ -259,7 +252,7 @@ pub fn make(arguments: &Arguments, began: Instant, way: &Way) -> Result<Tally, E
 }
 
 fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Reporter) -> Result<Tally, Exit> {
-    check_streams(arguments, reporter)?;
+    checks::streams(arguments, reporter)?;
     let viewpoint = arguments.output.viewpoint(reporter)?;
     let look = arguments.look.look(reporter)?;
     let outputs = arguments.output.formats(reporter)?;
@@ -286,7 +279,7 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
         Exit::Usage
     };
     let (rule, steps) =
-        what_to_apply(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
+        checks::what_to_apply(arguments, &program).or_else(|(exit, diagnostic)| fail(reporter, exit, *diagnostic))?;
     let cases = cases::cases(&program, arguments.input.len(), &arguments.definitions).map_err(usage)?;
     let given = Given {
         program: &arguments.program,
@@ -298,7 +291,7 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
     if arguments.reference.is_some() && plan.has_many() {
         return fail(reporter, Exit::Usage, error("`--reference` compares one result, and here are several"));
     }
-    not_read(&plan, &way.read_only).map_err(usage)?;
+    checks::not_read(&plan, arguments, &program, &way.read_only).map_err(usage)?;
     output::check_places(&plan.all_targets(), reporter)?;
     if plan.all_targets().iter().any(|target| target.figure().is_some()) {
         look.warn_of_figures(reporter);
@@ -521,87 +514,6 @@ impl Run<'_> {
             generation,
             summary,
         }
-    }
-}
-
-/// Nothing can be read or written twice.
-fn check_streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit> {
-    if let Some(other) = arguments.others.first() {
-        let name = files::shown(other);
-        let diagnostic = error(format!("`vv run` takes one program, and {name} is one file more"));
-        return fail(reporter, Exit::Usage, diagnostic.hint(format!("a mesh is given with `-i {name}`")));
-    }
-    let from_stdin = |path: &PathBuf| files::is_standard_stream(path);
-    let meshes = arguments.input.iter().filter(|path| from_stdin(path)).count();
-    if from_stdin(&arguments.program) && meshes > 0 {
-        return fail(reporter, Exit::Usage, error("program and mesh cannot both be read from stdin"));
-    }
-    if meshes > 1 {
-        return fail(reporter, Exit::Usage, error("only one mesh can be read from stdin"));
-    }
-    if arguments.summary.is_some() && arguments.output.to_stdout() {
-        return fail(reporter, Exit::Usage, error("`--summary json` and `-o -` both need stdout for themselves"));
-    }
-    Ok(())
-}
-
-/// What a run goes by must not be written by it.
-fn not_read(plan: &Plan, read_only: &[PathBuf]) -> Result<(), Box<Diagnostic>> {
-    let place = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
-    let read: BTreeSet<_> = read_only.iter().filter_map(|path| place(path)).collect();
-    match plan.all_targets().iter().find(|target| place(target.path()).is_some_and(|path| read.contains(&path))) {
-        Some(both) if !read.is_empty() => {
-            let message = format!("{} is read here, so it is not written", both.path().display());
-            Err(Box::new(error(message)))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Which rule to apply how often; `None` if the program has only `start`.
-fn what_to_apply(
-    arguments: &Arguments,
-    program: &Program,
-) -> Result<(Option<FunctionId>, u64), (Exit, Box<Diagnostic>)> {
-    let name = files::shown(&arguments.program);
-    let names: Vec<_> = program.rules.iter().filter_map(|&r| program.function(r)).map(|f| f.name.as_str()).collect();
-    if names.is_empty() && program.start.is_none() {
-        let diagnostic = error(format!("{name} has nothing to run: neither a rule nor `start`"))
-            .hint("a rule is a function `void name(mesh& S) { … }` in the program's own file");
-        return Err((Exit::Program, diagnostic.into()));
-    }
-    let rule = match &arguments.rule {
-        Some(wanted) => {
-            Some(program.rule(wanted).ok_or_else(|| (Exit::Usage, unknown_rule(&name, wanted, &names).into()))?)
-        }
-        None => program.default_rule(),
-    };
-    let last = arguments.generations.as_ref().map(plan::Generations::last);
-    let steps = arguments.steps.or(last).unwrap_or(u64::from(rule.is_some()));
-    if rule.is_none() && steps > 0 {
-        let diagnostic =
-            error(format!("{name} has no rule to apply {steps} times, only `start`")).hint("leave out `-n`");
-        return Err((Exit::Usage, diagnostic.into()));
-    }
-    if program.start.is_none() && arguments.input.is_empty() {
-        let diagnostic = error(format!("{name} has no `start` that would make a mesh, so it needs one"))
-            .hint("add `-i MESH`, an .obj, .off, .ply, .stl, .glb or .gltf file");
-        return Err((Exit::Usage, diagnostic.into()));
-    }
-    Ok((rule, steps))
-}
-
-/// Says which rules there are.
-pub(super) fn unknown_rule(program: &str, wanted: &str, names: &[&str]) -> Diagnostic {
-    let diagnostic = error(format!("{program} has no rule `{wanted}`"));
-    let diagnostic = match names {
-        [] => diagnostic.evidence("it has only `start`"),
-        [name] => diagnostic.evidence(format!("its only rule is `{name}`")),
-        _ => diagnostic.evidence(format!("its rules are {}", list(names.iter().copied()))),
-    };
-    match closest(wanted, names.iter().copied()) {
-        Some(name) => diagnostic.hint(format!("did you mean `--rule {name}`?")),
-        None => diagnostic,
     }
 }
 

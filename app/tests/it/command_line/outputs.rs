@@ -31,14 +31,28 @@ fn each_extension_gets_its_format() {
 
 #[test]
 fn what_a_run_goes_by_is_not_written_over() {
-    let folder = Folder::with(&[("look.json", "{}")]);
+    let folder = Folder::with(&[("look.json", "{}"), ("twice.vv", "#include \"move.vv\"\nvoid twice(mesh& S) { }\n")]);
     let (program, style) = (folder.read("move.vv"), folder.read("look.json"));
     folder.check("run move.vv -i octahedron.obj -o ./move.vv --format obj", 2, "move.vv is read here");
+    folder.check("run twice.vv -i octahedron.obj -o move.vv --format obj", 2, "move.vv is read here");
     folder.check("render octahedron.obj --style look.json -o look.json --format svg", 2, "look.json is read here");
     assert_eq!((folder.read("move.vv"), folder.read("look.json")), (program, style));
     // A mesh may change in its place.
     folder.check("run move.vv -i octahedron.obj -o octahedron.obj", 0, "");
     assert_eq!(vertices(&folder.read("octahedron.obj"))[..2], ["2 0 0", "0 0 0"]);
+}
+
+/// As the shell's `<(…)` gives it.
+#[test]
+#[cfg(unix)]
+fn a_program_that_can_be_read_only_once_is_read_once() {
+    let folder = Folder::with(&[]);
+    assert!(Command::new("mkfifo").arg(folder.path("pipe.vv")).status().unwrap().success());
+    let (pipe, text) = (folder.path("pipe.vv"), folder.read("move.vv"));
+    let writer = std::thread::spawn(move || fs::write(pipe, text).unwrap());
+    folder.check("run pipe.vv -i octahedron.obj -o a.obj --timeout 5", 0, "");
+    writer.join().unwrap();
+    assert_eq!(vertices(&folder.read("a.obj"))[..2], ["2 0 0", "0 0 0"]);
 }
 
 #[test]
