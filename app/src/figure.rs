@@ -51,7 +51,7 @@ use crate::scene::{Scene, Style};
 
 pub use letters::Glyph;
 pub use mask::{mask, mask_on};
-pub use notes::Notes;
+pub use notes::{Missing, Notes};
 pub use page::{At, Drawing, Layer, Path, Sketch, Tile, Words, sheet};
 pub use raster::image;
 
@@ -324,6 +324,7 @@ pub fn sketch(
         sketch.notes = found.notes;
         sketch.strokes = found.strokes;
         sketch.dots.extend(found.dots);
+        sketch.missing = found.missing;
     }
     if style.axes {
         sketch.axes = Some(space.axes());
@@ -332,16 +333,22 @@ pub fn sketch(
 }
 
 /// Writes notes, and the axes if the style has them, on a picture of the same subject from the same place; `scale` is
-/// pixels per point.
-pub fn write_on(picture: &mut RgbaImage, subject: Subject<'_>, camera: &Camera, style: &Style, scale: f32) {
+/// pixels per point. Returns what is missing of the notes.
+pub fn write_on(
+    picture: &mut RgbaImage,
+    subject: Subject<'_>,
+    camera: &Camera,
+    style: &Style,
+    scale: f32,
+) -> Vec<Missing> {
     if subject.notes.is_empty() && !style.axes {
-        return;
+        return Vec::new();
     }
     let size = DVec2::new(picture.width().into(), picture.height().into()) / f64::from(scale);
     let bounds = subject.scene.bounds(&Style { control: false, ..*style });
     let space = Space::new(camera, size.x / size.y, &style.cut, bounds);
     let inks = Inks::of(style.theme);
-    let mut sketch = Sketch::default();
+    let (mut sketch, mut missing) = (Sketch::default(), Vec::new());
     if !subject.notes.is_empty() {
         let surface = Surface::new(subject.scene, subject.mesh, &space, false);
         let hider = style.faces.then(|| Hider::new(&surface.triangles));
@@ -355,9 +362,11 @@ pub fn write_on(picture: &mut RgbaImage, subject: Subject<'_>, camera: &Camera, 
         let dot = if style.vertices { f64::from(style.vertex_size) / 2.0 } else { 0.5 };
         let found = notes::find(&subject, &surface, &space, hider.as_ref(), &lines, (dot, ON_SCREEN, inks));
         (sketch.notes, sketch.strokes, sketch.dots) = (found.notes, found.strokes, found.dots);
+        missing = found.missing;
     }
     sketch.axes = style.axes.then(|| space.axes());
     raster::over(picture, &page::overlay(sketch, size, inks), f64::from(scale));
+    missing
 }
 
 /// Without the lines that the style leaves out.

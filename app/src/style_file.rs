@@ -68,14 +68,44 @@ impl StyleFile {
     /// If it is no JSON, names something that there is not, or gives it a value that it cannot have.
     pub fn parse(text: &str) -> Result<Self, Mistake> {
         let style: Self = serde_json::from_str(text).map_err(|error| {
-            let message = error.to_string();
-            let message = message.split(" at line ").next().unwrap_or_default().to_owned();
-            let place = Place::Text { line: error.line() as u32, column: u32::try_from(error.column()).ok() };
-            Mistake { message, evidence: None, place: Some(place).filter(|_| error.line() > 0) }
+            let column = u32::try_from(error.column()).ok().filter(|column| *column > 0);
+            let place = Place::Text { line: error.line() as u32, column };
+            let problem = error.to_string();
+            let is_json = serde_json::from_str::<&RawValue>(text).is_ok();
+            let (message, evidence) = worded(problem.split(" at line ").next().unwrap_or_default(), is_json);
+            Mistake { message, evidence, place: Some(place).filter(|_| error.line() > 0) }
         })?;
         let all = serde_json::to_value(Self::default()).unwrap_or_default();
         only_known(text, text, &all)?;
+        style.in_bounds().map_err(|(names, wanted)| Mistake {
+            message: format!("{wanted} is wanted here"),
+            evidence: None,
+            place: place_of(text, names),
+        })?;
         Ok(style)
+    }
+
+    /// Whether numbers are what pictures can be drawn with; else the names that lead to the first that is not, and what it
+    /// should be.
+    fn in_bounds(&self) -> Result<(), (&'static [&'static str], &'static str)> {
+        let Self { style, annotations, .. } = self;
+        let points = |x: f32| (0.0..=100.0).contains(&x);
+        let checks: [(bool, &[&str], &str); 5] = [
+            (points(style.edge_width), &["style", "edge_width"], "a width from 0 to 100 points"),
+            (points(style.vertex_size), &["style", "vertex_size"], "a diameter from 0 to 100 points"),
+            ((-1.0..=1.0).contains(&style.cut.position), &["style", "cut", "position"], "a place from -1 to 1"),
+            (
+                annotations.range.is_none_or(|[low, high]| low < high),
+                &["annotations", "range"],
+                "a list of two numbers, the smaller one first,",
+            ),
+            (
+                (0.0..=1000.0).contains(&annotations.arrow_length),
+                &["annotations", "arrow_length"],
+                "a length from 0 to 1000 edges",
+            ),
+        ];
+        checks.into_iter().find(|(is_right, ..)| !is_right).map_or(Ok(()), |(_, names, wanted)| Err((names, wanted)))
     }
 
     /// Writes it.
@@ -103,8 +133,11 @@ pub fn place_of(text: &str, names: &[&str]) -> Option<Place> {
 /// Whether every name in an object of `text` stands in `all`, and so in the objects in it. Those with names of their own
 /// choice are empty in `all`.
 fn only_known(text: &str, part: &str, all: &Value) -> Result<(), Mistake> {
-    let (Some(found), Some(known)) = (members(part), all.as_object().filter(|known| !known.is_empty())) else {
-        return Ok(());
+    let Some(known) = all.as_object().filter(|known| !known.is_empty()) else { return Ok(()) };
+    let Some(found) = members(part) else {
+        let at = part.trim_start().as_ptr() as usize - text.as_ptr() as usize;
+        let message = format!("{OBJECT} is wanted here, and there is a list");
+        return Err(Mistake { message, evidence: None, place: Some(place(text, at)) });
     };
     for (name, value) in found {
         let value = value.get();
@@ -121,6 +154,52 @@ fn only_known(text: &str, part: &str, all: &Value) -> Result<(), Mistake> {
         }
     }
     Ok(())
+}
+
+const OBJECT: &str = "an object in braces";
+
+/// What serde finds wrong, in words for people; and what there is instead.
+fn worded(problem: &str, is_json: bool) -> (String, Option<String>) {
+    let wanted = |found: &str, wanted: &str| format!("{} is wanted here, and there is {}", thing(wanted), thing(found));
+    let parts = |start: &str| problem.strip_prefix(start)?.split_once(", expected ");
+    if let Some((found, what)) = parts("invalid type: ").or_else(|| parts("invalid value: ")) {
+        (wanted(found, what), None)
+    } else if let Some((_, what)) = parts("invalid length ") {
+        (format!("{} is wanted here", thing(what)), None)
+    } else if let Some((name, names)) = parts("unknown variant ") {
+        let names = names.strip_prefix("one of ").unwrap_or(names);
+        (format!("nothing is called {name} here"), Some(format!("there are {names}")))
+    } else if let Some(name) = problem.strip_prefix("duplicate field ") {
+        (format!("{name} stands here twice"), None)
+    } else if problem == "number out of range" {
+        ("this number is too large".to_owned(), None)
+    } else if is_json {
+        // Of a choice of words serde says no more than that it expects a value.
+        (format!("{} is wanted here", thing("a string")), None)
+    } else if problem.starts_with("EOF") {
+        ("the text ends before its last bracket".to_owned(), None)
+    } else {
+        ("this is no JSON".to_owned(), Some(problem.to_owned()))
+    }
+}
+
+/// What serde calls a kind of value, or a value.
+fn thing(name: &str) -> String {
+    match name {
+        "a map" | "map" => OBJECT.to_owned(),
+        "sequence" | "a sequence" => "a list".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "f32" | "f64" => "a number".to_owned(),
+        "a string" | "string or map" => "a text in quotes".to_owned(),
+        "an array of length 2" => "a list of two numbers".to_owned(),
+        "null" => "`null`".to_owned(),
+        _ if name.starts_with("struct ") => OBJECT.to_owned(),
+        _ => match name.split_once(['`', '"']) {
+            Some((kind, value)) if kind != "string " => format!("`{}`", value.trim_end_matches('`')),
+            Some((_, value)) => format!("the text `{}`", value.trim_end_matches('"')),
+            None => name.to_owned(),
+        },
+    }
 }
 
 fn members(object: &str) -> Option<BTreeMap<String, &RawValue>> {
@@ -141,9 +220,9 @@ mod tests {
     use crate::scene::Theme;
 
     #[track_caller]
-    fn fails(text: &str, line: u32, column: u32, message: &str) -> String {
+    fn fails(text: &str, line: u32, column: impl Into<Option<u32>>, message: &str) -> String {
         let mistake = StyleFile::parse(text).unwrap_err();
-        assert_eq!(mistake.place, Some(Place::Text { line, column: Some(column) }), "{mistake:?}");
+        assert_eq!(mistake.place, Some(Place::Text { line, column: column.into() }), "{mistake:?}");
         assert!(mistake.message.starts_with(message), "{mistake:?}");
         mistake.evidence.unwrap_or_default()
     }
@@ -169,9 +248,31 @@ mod tests {
 
     #[test]
     fn what_it_says_wrongly_is_told_at_its_place() {
-        fails("{\n  \"style\": 1\n}", 2, 12, "invalid type: integer `1`, expected struct Style");
-        fails("{\"style\": {\"edges\": 1}}", 1, 21, "invalid type: integer `1`, expected a boolean");
-        fails("{\"style\": {", 1, 11, "EOF while parsing");
+        fails("{\n  \"style\": 1\n}", 2, 12, "an object in braces is wanted here, and there is `1`");
+        fails("{\"style\": {\"edges\": 1}}", 1, 21, "true or false is wanted here, and there is `1`");
+        fails("{\"style\": {\"edge_width\": \"a\"}}", 1, 28, "a number is wanted here, and there is the text `a`");
+        fails("{\"background\": [1]}", 1, 15, "a text in quotes is wanted here, and there is a list");
+        fails("{\"annotations\": {\"range\": [1]}}", 1, 29, "a list of two numbers is wanted here");
+        let there = fails("{\"style\": {\"theme\": \"red\"}}", 1, 25, "nothing is called `red` here");
+        assert_eq!(there, "there are `Light` or `Dark`");
+        fails("{\"style\": {}, \"style\": {}}", 1, 21, "`style` stands here twice");
+        fails("{\"style\": {", 1, 11, "the text ends before its last bracket");
+        assert_eq!(fails("{'style': 1}", 1, 2, "this is no JSON"), "key must be a string");
+        fails("{\"style\": {\"vertex_size\": 1e99}}", 1, 30, "this number is too large");
+        fails("{\"annotations\": {\"labels\": 3}}", 1, 28, "a text in quotes is wanted here");
+        fails("", 1, None, "the text ends before its last bracket");
+        fails("[]", 1, 1, "an object in braces is wanted here, and there is a list");
+        fails("{\"style\": {\"cut\": [true]}}", 1, 19, "an object in braces is wanted here, and there is a list");
+        fails("{\"style\": {\"edge_width\": -1}}", 1, 26, "a width from 0 to 100 points is wanted here");
+        fails("{\"style\": {\"vertex_size\": 101}}", 1, 27, "a diameter from 0 to 100 points is wanted here");
+        fails("{\"style\": {\"cut\": {\"position\": 2}}}", 1, 32, "a place from -1 to 1 is wanted here");
+        fails(
+            "{\"annotations\": {\"range\": [2, 1]}}",
+            1,
+            27,
+            "a list of two numbers, the smaller one first, is wanted",
+        );
+        fails("{\"annotations\": {\"arrow_length\": -1}}", 1, 34, "a length from 0 to 1000 edges is wanted here");
         let there = fails("{\n  \"style\": {\n    \"egdes\": true }}", 3, 5, "nothing is called `egdes` here");
         assert!(there.contains("`edges`") && there.contains("`cut`"), "{there}");
         fails("{\"style\": {\"cut\": {\"off\": 1}}}", 1, 20, "nothing is called `off` here");

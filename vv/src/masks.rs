@@ -71,6 +71,9 @@ pub enum Fault {
     /// There is a left and a right in the rule.
     #[error("the masks are not symmetric: a mirror image has others")]
     Asymmetric,
+    /// `start` takes the surroundings apart.
+    #[error("`start` changes what is around the vertex, so these are the masks of the rule without it")]
+    Start,
     /// What comes first comes out otherwise.
     #[error("the masks depend on the order of the vertices")]
     Order,

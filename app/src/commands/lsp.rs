@@ -12,11 +12,13 @@ mod answers;
 mod documents;
 mod places;
 mod rename;
+mod wire;
 
 use std::collections::BTreeMap;
 use std::io::{self, IsTerminal as _};
 use std::time::Duration;
 
+use app::files;
 use clap::Args;
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
 use lsp_types::notification as told;
@@ -34,6 +36,7 @@ use super::report::Reporter;
 use super::{DiagnosticFormat, EXIT_CODES, Exit, error, fail};
 use documents::Documents;
 use places::Encoding;
+use wire::Wire;
 
 /// How long an editor is silent before problems are looked for.
 const SILENCE: Duration = Duration::from_millis(60);
@@ -54,30 +57,39 @@ pub fn lsp(_: &Arguments) -> Result<(), Exit> {
         let diagnostic = error("a language server is started by an editor and speaks with it over stdin and stdout");
         return fail(&reporter, Exit::Usage, diagnostic.hint("`vv check PROGRAM` finds the same problems"));
     }
-    let (connection, threads) = Connection::stdio();
+    let (connection, wire) = Wire::open().or_else(|problem| {
+        fail(&reporter, Exit::File, error(format!("the editor cannot be served: {}", files::sentence(&problem))))
+    })?;
     let served = serve(&connection);
-    // The threads end when nobody listens to them any more.
     drop(connection);
-    let ended = threads.join();
-    let trouble = served.err().or_else(|| ended.err().map(|error| error.to_string()));
-    trouble.map_or(Ok(()), |trouble| {
+    let unread = wire.close();
+    served.err().or(unread).map_or(Ok(()), |trouble| {
         fail(&reporter, Exit::File, error(format!("the editor is not understood: {trouble}")))
     })
 }
 
 fn serve(connection: &Connection) -> Result<(), String> {
-    let Ok((id, params)) = connection.initialize_start() else {
-        return Ok(()); // nobody there
+    let (id, params) = match connection.initialize_start() {
+        Ok(first) => first,
+        Err(problem) if problem.channel_is_disconnected() => return Ok(()), // nobody there
+        Err(problem) => return Err(problem.to_string()),
     };
-    let params: InitializeParams = serde_json::from_value(params).map_err(|error| error.to_string())?;
+    let params: InitializeParams = serde_json::from_value(params).map_err(|problem| {
+        let why = format!("the parameters of `initialize` cannot be read: {problem}");
+        let refusal = Response::new_err(id.clone(), ErrorCode::InvalidParams as i32, why.clone());
+        let _ = connection.sender.send(refusal.into());
+        why
+    })?;
     let encoding = encoding(&params);
     let result = InitializeResult {
         capabilities: capabilities(encoding),
         server_info: Some(ServerInfo { name: "vv".to_owned(), version: Some(env!("CARGO_PKG_VERSION").to_owned()) }),
     };
     let result = serde_json::to_value(result).map_err(|error| error.to_string())?;
-    if connection.initialize_finish(id, result).is_err() {
-        return Ok(());
+    match connection.initialize_finish(id, result) {
+        Err(problem) if !problem.channel_is_disconnected() => return Err(problem.to_string()),
+        Err(_) => return Ok(()),
+        Ok(()) => {}
     }
     let mut server =
         Server { connection, documents: Documents::new(encoding), published: BTreeMap::new(), stale: false };

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use app::evaluation::{machine_limits, within};
+use app::evaluation::{first, machine_limits, within};
 use app::files;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -84,8 +84,15 @@ enum Faces {
 /// Prints the masks, and as warnings what keeps them from being masks.
 pub fn mask(arguments: &Arguments) -> Result<(), Exit> {
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
-    let targets = arguments.drawing.targets(&reporter)?;
-    let (program, _) = input::program(&arguments.program, &reporter)?;
+    let result = measured(arguments, &reporter);
+    reporter.end();
+    result
+}
+
+fn measured(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit> {
+    let targets = arguments.drawing.targets(reporter)?;
+    reporter.begin();
+    let (program, _) = input::program(&arguments.program, reporter)?;
     let name = files::shown(&arguments.program);
     let rules: Vec<_> = program.rules.iter().filter_map(|&r| program.function(r)).map(|f| f.name.as_str()).collect();
     let wanted = arguments.rule.as_deref();
@@ -94,15 +101,15 @@ pub fn mask(arguments: &Arguments) -> Result<(), Exit> {
             Some(wanted) => unknown_rule(&name, wanted, &rules),
             None => error(format!("{name} has no rule, so there is no mask")),
         };
-        return fail(&reporter, if wanted.is_some() { Exit::Usage } else { Exit::Program }, diagnostic);
+        return fail(reporter, if wanted.is_some() { Exit::Usage } else { Exit::Program }, diagnostic);
     };
     let params = parameters::values(&program, &arguments.definitions)
-        .or_else(|diagnostic| fail(&reporter, Exit::Usage, *diagnostic))?;
+        .or_else(|diagnostic| fail(reporter, Exit::Usage, *diagnostic))?;
     let machine = Machine::new(Arc::clone(&program), Engine::Native);
     let rule_name = program.function(rule).map(|f| f.name.clone()).unwrap_or_default();
     let table = within(arguments.importing.timeout.0, |stop| {
         let settings = Settings { params, limits: machine_limits(), stop: stop.clone(), ..Settings::default() };
-        let bench = Bench { machine, rule, settings, reporter: &reporter };
+        let bench = Bench { machine, rule, settings, reporter };
         match &arguments.input {
             Some(path) => bench.of_mesh(arguments, path),
             None => bench.of_stars(arguments),
@@ -113,15 +120,15 @@ pub fn mask(arguments: &Arguments) -> Result<(), Exit> {
     }
     let table = Table { program: name, rule: rule_name, ..table };
     if arguments.json {
-        write_stdout(json(&table).as_bytes(), &reporter)?;
+        write_stdout(json(&table).as_bytes(), reporter)?;
     } else if targets.is_empty() {
-        write_stdout(table.text().as_bytes(), &reporter)?;
+        write_stdout(table.text().as_bytes(), reporter)?;
     }
     if targets.is_empty() {
         return Ok(());
     }
     let around = if table.around == Some(TRIANGLES) { Around::Triangles } else { Around::Quads };
-    arguments.drawing.write(table.drawn, around, &targets, &reporter)
+    arguments.drawing.write(table.drawn, around, &targets, reporter)
 }
 
 /// What is said of what is around a vertex.
@@ -194,6 +201,10 @@ impl Bench<'_> {
             let message = format!("{} vertices take too long: each three of them need a step", mesh.vertex_count());
             return fail(self.reporter, Exit::Budget, error(message).hint(format!("take a mesh of at most {MOST}")));
         }
+        let mesh =
+            first(&self.machine, &mesh, &self.settings, &mut Vec::new()).map_err(|failure| self.ended(failure))?;
+        let mesh = mesh.mesh;
+        self.reporter.progress(format!("measuring the masks of {} vertices", mesh.vertex_count()));
         let masks = self.measure(&mesh).map_err(|failure| self.ended(failure))?;
         let of = |mask: &[(Vertex, f64)]| weights(mask, |v| v.to_string(), &[]);
         let mut rows: Vec<Mask> = Vec::new();
@@ -256,6 +267,7 @@ impl Bench<'_> {
                 (true, 1) => "boundary, 1 sector".to_owned(),
                 (true, n) => format!("boundary, {n} sectors"),
             };
+            self.reporter.progress(format!("measuring around a vertex: {title}"));
             let row = match judge(&self.machine, self.rule, &star, &self.settings) {
                 Ok(found) => {
                     for fault in found.faults.iter().map(ToString::to_string) {

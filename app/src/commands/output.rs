@@ -145,8 +145,10 @@ impl OutputArguments {
     pub fn formats(&self, reporter: &Reporter) -> Result<Vec<Target>, Exit> {
         let mut targets: Vec<Target> = Vec::new();
         for path in &self.output {
-            if targets.iter().any(|target| target.path == *path) {
-                return fail(reporter, Exit::Usage, error(format!("`-o {}` is given twice", path.display())));
+            if let Some(other) =
+                targets.iter().map(Target::path).find(|other| files::place(other) == files::place(path))
+            {
+                return fail(reporter, Exit::Usage, given_twice(other, path));
             }
             match self.kind_of(path) {
                 Ok(kind) => targets.push(Target { path: path.clone(), kind }),
@@ -226,6 +228,14 @@ impl Target {
     pub fn path(&self) -> &Path {
         &self.path
     }
+}
+
+/// What is wrong with two outputs that are the same file.
+pub fn given_twice(one: &Path, other: &Path) -> Diagnostic {
+    if one == other {
+        return error(format!("`-o {}` is given twice", one.display()));
+    }
+    error(format!("`-o {}` and `-o {}` are the same file", one.display(), other.display()))
 }
 
 /// Whether each place can be written to, so that nobody waits for a result that cannot be kept. Of new files in one

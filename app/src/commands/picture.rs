@@ -6,11 +6,11 @@ use std::io::Cursor;
 use app::annotate::field::NoField;
 use app::annotate::{ArrowSet, Label, Subject, Tint};
 use app::camera::Camera;
-use app::figure::{self, Drawing};
+use app::figure::{self, Drawing, Missing};
 use app::render::{self, Dressing, Headless, RenderError};
 use app::scene::{Scene, Sphere, Style};
 use app::viewpoint::Viewpoint;
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use image::codecs::gif::{GifEncoder, Repeat};
 use image::{Delay, Frame, ImageFormat, RgbaImage};
 use vv::diagnostic::{Diagnostic, Severity};
@@ -95,6 +95,9 @@ impl<'a> Exhibit<'a> {
     /// [`Exit::Usage`] if the mesh lacks what is to be shown; reported.
     pub fn new(result: look::Result<'a>, look: &Look, reporter: &Reporter) -> Result<Self, Exit> {
         let look::Result { mesh, faces, past } = result;
+        if let Err(why) = drawable(mesh) {
+            return fail(reporter, Exit::Program, error(format!("there is no picture of the mesh: {why}")));
+        }
         let annotations = &look.annotations;
         let never = Stop::new();
         let first = past.first.as_ref().filter(|_| look.style.control);
@@ -162,6 +165,28 @@ impl<'a> Exhibit<'a> {
     }
 }
 
+/// Greatest coordinates that are drawn: products of four of them are numbers.
+const FAR: f64 = 1e75;
+
+/// Smallest size that is drawn, for the same reason.
+const SMALL: f64 = 1e-75;
+
+/// Whether a mesh is somewhere, of a size that can be drawn.
+fn drawable(mesh: &Mesh) -> Result<(), String> {
+    let places = || mesh.set.iter().map(|v| mesh.position(v)).filter(|p| p.is_finite());
+    let low = places().reduce(DVec3::min).ok_or("no vertex has a finite position")?;
+    let high = places().reduce(DVec3::max).unwrap_or(low);
+    let reach = low.abs().max(high.abs()).max_element();
+    let size = (high - low).max_element();
+    if reach > FAR {
+        return Err(format!("its coordinates reach {reach:e}, and up to {FAR:e} can be drawn"));
+    }
+    if size > 0.0 && size < SMALL {
+        return Err(format!("it is {size:e} in size, and from {SMALL:e} on it could be drawn"));
+    }
+    Ok(())
+}
+
 /// A picture of a mesh.
 ///
 /// # Errors
@@ -212,11 +237,20 @@ pub fn sheet(
         Some(drawing) => {
             if !drawing.is_exact {
                 let warning = Diagnostic::new(Severity::Warning, None, figure::ROUGH);
-                reporter.report(&[warning.hint("leave faces empty with `--style no-faces`")], &Sources::default());
+                reporter.report_once(warning.hint("leave faces empty with `--style no-faces`"));
             }
+            warn_of_missing(&drawing.missing, reporter);
             Ok(drawing)
         }
         None => fail(reporter, Exit::Usage, error("nothing of the mesh is seen from there, so there is no figure")),
+    }
+}
+
+/// Says once what of the notes no picture shows.
+fn warn_of_missing(missing: &[Missing], reporter: &Reporter) {
+    for missing in missing {
+        let warning = Diagnostic::new(Severity::Warning, None, missing.to_string());
+        reporter.report_once(warning.hint("`--view` says from where a mesh is seen"));
     }
 }
 
@@ -300,16 +334,21 @@ pub fn draw(
         Exit::NoRenderer
     };
     let headless = Headless::new(shot.look.samples.unwrap_or(SAMPLES)).map_err(failed)?;
-    for (exhibit, camera) in exhibits {
+    let mut missing = Vec::new();
+    for (number, (exhibit, camera)) in (1..).zip(exhibits) {
+        if let count @ 2.. = exhibits.len() {
+            reporter.progress(format!("drawing picture {number} of {count}"));
+        }
         let arrows = Some((&exhibit.arrows, shot.look.annotations.arrow_length));
         let dressing = Dressing { tint: exhibit.tint.as_ref(), arrows };
         let mut drawn = headless.dressed_image(&exhibit.scene, dressing, camera, &style, size).map_err(failed)?;
-        figure::write_on(&mut drawn, exhibit.subject(shot.look), camera, &style, lettering(size));
+        missing.push(figure::write_on(&mut drawn, exhibit.subject(shot.look), camera, &style, lettering(size)));
         if let Some(color) = shot.look.background {
             render::put_on(&mut drawn, color);
         }
         take(drawn)?;
     }
+    warn_of_missing(&Missing::in_all(missing), reporter);
     Ok(())
 }
 

@@ -1,6 +1,8 @@
 //! What goes to the terminal: diagnostics, printed lines, progress.
 
+use std::collections::BTreeSet;
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -18,6 +20,7 @@ const AT_ONCE: Duration = Duration::from_millis(500);
 pub struct Reporter {
     form: Form,
     progress: ProgressBar,
+    said: Arc<Mutex<BTreeSet<String>>>,
 }
 
 impl Reporter {
@@ -29,7 +32,7 @@ impl Reporter {
             DiagnosticFormat::Json => Form::Json,
         };
         let progress = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        Self { form, progress }
+        Self { form, progress, said: Arc::default() }
     }
 
     /// Writes them. Nothing can be done when stderr is closed.
@@ -43,6 +46,14 @@ impl Reporter {
         });
     }
 
+    /// As [`Reporter::report`] without a program, but of the same message only the first.
+    pub fn report_once(&self, diagnostic: Diagnostic) {
+        let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+        if said.insert(diagnostic.message.clone()) {
+            self.report(&[diagnostic], &Sources::default());
+        }
+    }
+
     /// From now on, shows on a terminal that work goes on: what [`Reporter::progress`] says and how long it takes. What
     /// is done at once shows nothing.
     pub fn begin(&self) {
@@ -53,7 +64,7 @@ impl Reporter {
         std::thread::spawn(move || {
             std::thread::sleep(AT_ONCE);
             // A template that cannot be read would be a mistake of ours; the default style does too.
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}{msg} ({elapsed})") {
                 progress.set_style(style);
             }
             if !progress.is_finished() {
@@ -64,6 +75,11 @@ impl Reporter {
                 progress.finish_and_clear();
             }
         });
+    }
+
+    /// In which part of the work: stands before all that [`Reporter::progress`] says.
+    pub fn part(&self, name: String) {
+        self.progress.set_prefix(name);
     }
 
     /// What is being done now.
@@ -152,8 +168,11 @@ impl Output for Printer {
 /// # Errors
 /// [`Exit::File`], reported, if it could not be written.
 pub fn write_stdout(bytes: &[u8], reporter: &Reporter) -> Result<(), Exit> {
-    let mut out = io::stdout().lock();
-    out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| output_failed(&error, reporter))
+    let write = || {
+        let mut out = io::stdout().lock();
+        out.write_all(bytes).and_then(|()| out.flush())
+    };
+    reporter.progress.suspend(write).map_err(|error| output_failed(&error, reporter))
 }
 
 /// A closed pipe is how readers say that they have enough: no message.

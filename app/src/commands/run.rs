@@ -162,10 +162,8 @@ pub fn run(arguments: &Arguments, began: Instant) -> Result<(), Exit> {
 pub struct Way {
     /// Ends it.
     pub halt: Halt,
-    /// Files that may not be written, besides those that the run goes by.
-    pub read_only: Vec<PathBuf>,
-    /// Whether what came out is counted.
-    pub counting: bool,
+    /// Whether it is made again when a file that it reads changes: it may write none of them, and counts what came out.
+    pub watched: bool,
     /// Becomes true when stdout takes no more.
     pub closed: AtomicBool,
 }
@@ -291,7 +289,7 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
     if arguments.reference.is_some() && plan.has_many() {
         return fail(reporter, Exit::Usage, error("`--reference` compares one result, and here are several"));
     }
-    checks::not_read(&plan, arguments, &program, &way.read_only).map_err(usage)?;
+    checks::not_read(&plan, arguments, &program, way.watched).map_err(usage)?;
     output::check_places(&plan.all_targets(), reporter)?;
     if plan.all_targets().iter().any(|target| target.figure().is_some()) {
         look.warn_of_figures(reporter);
@@ -366,6 +364,9 @@ impl Run<'_> {
         let to_stderr = self.arguments.output.to_stdout() || self.arguments.summary.is_some();
         let mut printer = Printer::new(to_stderr, self.reporter);
         for case in self.plan.cases() {
+            if let count @ 2.. = self.plan.cases().len() {
+                self.reporter.part(format!("run {} of {count}: ", case.index + 1));
+            }
             if loaded.as_ref().is_none_or(|(input, _)| *input != case.input) {
                 loaded = Some((case.input, self.load(case.input)));
             }
@@ -384,6 +385,7 @@ impl Run<'_> {
             result = result.and(ended);
         }
         if self.plan.cases().len() > 1 {
+            self.reporter.part(String::new());
             picture::in_one_range(exhibits.values_mut(), self.shot.look);
             result = result.and(self.sheets(&exhibits).and_then(|sheets| self.commit(sheets, &mut tally)));
         }
@@ -433,7 +435,7 @@ impl Run<'_> {
             picture::in_one_range(made.exhibits.values_mut(), self.shot.look);
             made.prepared.extend(self.sheets(&made.exhibits)?);
         }
-        let counts = if self.way.counting { Some(self.count(&state.mesh)?) } else { None };
+        let counts = if self.way.watched { Some(self.count(&state.mesh)?) } else { None };
         if !made.summaries.is_empty() {
             write_stdout(made.summaries.as_bytes(), self.reporter).inspect_err(|_| printer.close())?;
         }
@@ -488,8 +490,10 @@ impl Run<'_> {
             }
             timings.render_s += drawing.elapsed().as_secs_f64();
             if on_sheet {
-                made.exhibits
-                    .insert((case.index, past.generation), exhibit.kept(self.shot.look, self.plan.has_figures()));
+                made.exhibits.insert(
+                    (case.index, past.generation),
+                    exhibit.kept(self.shot.look, self.plan.has_figures_on_sheets()),
+                );
             }
         }
         made.picture = outputs.picture;

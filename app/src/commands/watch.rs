@@ -41,8 +41,8 @@ pub fn watch(arguments: &Arguments) -> Result<(), Exit> {
         let read = arguments.read();
         // What is missing now has no content to come back to: it counts as changed once it is there.
         watch.set_files(read.iter().filter(|path| path.exists()).cloned());
-        watch.set_files(read.iter().cloned());
-        let way = Way { read_only: read, counting: true, ..Way::default() };
+        watch.set_files(read);
+        let way = Way { watched: true, ..Way::default() };
         let began = Instant::now();
         let made = making(arguments, &way, began, &watch, (&news, &inbox))?;
         if way.halt.is_requested() {

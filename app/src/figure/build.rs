@@ -146,7 +146,7 @@ impl<'a> Builder<'a> {
         layers.extend(lines);
         layers.extend(self.dots);
         layers.extend(self.texts);
-        Drawing { size: rounded(size), layers, is_exact: self.is_exact, crowded_out: 0 }
+        Drawing { size: rounded(size), layers, is_exact: self.is_exact, crowded_out: 0, missing: Vec::new() }
     }
 }
 

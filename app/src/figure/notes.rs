@@ -1,6 +1,7 @@
 //! What is written and marked on a surface: labels, and the order of rings.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use rayon::prelude::*;
@@ -31,6 +32,34 @@ impl Notes {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.labels == Label::Nothing && self.rings.is_empty()
+    }
+}
+
+/// Something of the notes that is not drawn, and why.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Missing {
+    /// The vertex whose ring it is; `None` for the labels, all of them.
+    pub ring: Option<Vertex>,
+    pub(super) why: &'static str,
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.ring {
+            Some(v) => write!(f, "the ring of {v} is not drawn: {}", self.why),
+            None => write!(f, "no label is drawn: {}", self.why),
+        }
+    }
+}
+
+impl Missing {
+    /// What is missing in all of these pictures, as the first one has it.
+    pub fn in_all(pictures: impl IntoIterator<Item = Vec<Self>>) -> Vec<Self> {
+        let both = |mut one: Vec<Self>, other: Vec<Self>| {
+            one.retain(|missing| other.iter().any(|o| o.ring == missing.ring));
+            one
+        };
+        pictures.into_iter().reduce(both).unwrap_or_default()
     }
 }
 
@@ -74,6 +103,7 @@ pub(super) struct Found {
     pub notes: Vec<Note>,
     pub strokes: Vec<Strokes>,
     pub dots: Vec<Dots>,
+    pub missing: Vec<Missing>,
 }
 
 /// Labels beyond so many could not be told apart on any page.
@@ -103,9 +133,13 @@ pub(super) fn find(
     let writer = Writer { subject, surface, space, hider, inks, size };
     let mut taken = BTreeSet::new();
     for &v in &subject.notes.rings {
-        taken.extend(writer.ring(v, &mut found));
+        match writer.ring(v, &mut found) {
+            Ok(named) => taken.extend(named),
+            Err(why) => found.missing.push(Missing { ring: Some(v), why }),
+        }
     }
     let Some(texts) = Texts::of(subject.mesh, subject.faces, subject.tint, &subject.notes.labels) else { return found };
+    let nothing = Missing { ring: None, why: "nothing that has one is seen" };
     let clearance = dot + 0.26 * size;
     let note = |at: DVec2, (toward, gap): (DVec2, f64), element: usize| Note {
         name: "labels",
@@ -119,6 +153,7 @@ pub(super) fn find(
     };
     if texts.at_faces() {
         let places = writer.faces();
+        found.missing.extend(places.is_empty().then_some(nothing));
         found.notes.extend(places.into_iter().map(|(face, at)| note(at, (DVec2::ZERO, 0.0), face)));
         return found;
     }
@@ -135,6 +170,7 @@ pub(super) fn find(
             break;
         }
     }
+    found.missing.extend(places.is_empty().then_some(nothing));
     let names = subject.notes.labels == Label::Vertices;
     places.retain(|(v, ..)| !(names && taken.contains(v)));
     places.truncate(MOST);
@@ -184,15 +220,22 @@ impl Writer<'_> {
         self.hider.is_none_or(|hider| !hider.hides_vertex(corner, at))
     }
 
-    /// The neighbours of a vertex in their order: an arrow from one to the next, and numbers. Those that got one.
-    fn ring(&self, v: Vertex, found: &mut Found) -> Vec<Vertex> {
+    /// The neighbours of a vertex in their order: an arrow from one to the next, and numbers. Those that got one; or why
+    /// there is nothing to draw.
+    fn ring(&self, v: Vertex, found: &mut Found) -> Result<Vec<Vertex>, &'static str> {
         /// Of the way to the nearest neighbour.
         const RADIUS: f64 = 0.42;
         let mesh = self.subject.mesh;
-        let Some(middle) = self.corner(v).filter(|at| self.is_seen(*at)) else { return Vec::new() };
+        let middle = self.corner(v).ok_or("the vertex lies outside of the picture, or is cut away")?;
+        if !self.is_seen(middle) {
+            return Err("the vertex is hidden by faces");
+        }
         let ring = Ring::of(mesh, v);
         if ring.len > ORDERED {
-            return Vec::new();
+            return Err("it is too long to be numbered");
+        }
+        if ring.vertices().next().is_none() {
+            return Err("it is empty");
         }
         let center = mesh.position(v);
         let arm = |u: Vertex| mesh.position(u) - center;
@@ -215,6 +258,16 @@ impl Writer<'_> {
                 heads.push([before, tip]);
             }
         }
+        let note = |at: DVec2, toward: DVec2, text: String| Note {
+            name: "order",
+            at,
+            toward,
+            clearance: 0.4 * self.size,
+            gap: NARROW,
+            text,
+            size: self.size,
+            color: self.inks.ring,
+        };
         let mut named = vec![v];
         let mut places = vec![middle.1.xy()];
         for (number, (u, answers)) in (1..).zip(ring.entries.iter().filter_map(|entry| match *entry {
@@ -229,40 +282,18 @@ impl Writer<'_> {
                 _ => format!("{number}{mark}"),
             };
             let toward = (at - middle.1.xy()).normalize_or(DVec2::Y);
-            let (size, color) = (self.size, self.inks.ring);
-            found.notes.push(Note {
-                name: "order",
-                at,
-                toward,
-                clearance: 0.4 * self.size,
-                gap: NARROW,
-                text,
-                size,
-                color,
-            });
+            found.notes.push(note(at, toward, text));
             named.push(u);
             places.push(at);
         }
         if self.subject.notes.labels == Label::Vertices {
             let away: Vec<DVec2> = ring.vertices().map(|u| project(mesh.position(u)) - middle.1.xy()).collect();
-            let (at, (toward, _)) = (middle.1.xy(), widest_gap(&away));
-            let (size, color) = (self.size, self.inks.ring);
-            let text = v.to_string();
-            found.notes.push(Note {
-                name: "order",
-                at,
-                toward,
-                clearance: 0.4 * self.size,
-                gap: NARROW,
-                text,
-                size,
-                color,
-            });
+            found.notes.push(note(middle.1.xy(), widest_gap(&away).0, v.to_string()));
         }
         let line = Line { width: 0.11 * self.size, color: self.inks.ring, dash: Dash::Solid };
         found.strokes.push(Strokes { name: "rings", line, pieces, heads });
         found.dots.push(Dots { name: "neighbours", diameter: 0.43 * self.size, color: self.inks.ring, places });
-        named
+        Ok(named)
     }
 
     /// The faces whose middles are seen, and where.

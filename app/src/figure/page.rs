@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use super::build::Builder;
 use super::letters::Glyph;
-use super::notes::Inks;
+use super::notes::{Inks, Missing};
 use super::text::{self, Block};
 use super::{Class, Line, ON_SCREEN, Page, Settings};
 
@@ -95,6 +95,8 @@ pub struct Drawing {
     pub is_exact: bool,
     /// How many texts were left out because others take their room.
     pub crowded_out: usize,
+    /// What is missing of the notes in all its parts.
+    pub missing: Vec<Missing>,
 }
 
 impl Drawing {
@@ -124,6 +126,8 @@ pub struct Sketch {
     pub(super) notes: Vec<Note>,
     /// Where the axes point, if they are drawn.
     pub(super) axes: Option<[DVec3; 3]>,
+    /// What of the notes is not among them.
+    pub(super) missing: Vec<Missing>,
     /// Whether some faces are ordered by distance only.
     pub(super) is_rough: bool,
 }
@@ -195,8 +199,9 @@ pub fn sheet(tiles: Vec<Tile>, columns: Option<usize>, settings: &Settings) -> O
     let nowhere = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let (low, high) =
         sketches().flat_map(|sketch| sketch.points(settings)).fold(nowhere, |(low, high), p| (low.min(p), high.max(p)));
-    if !low.is_finite() {
-        return None;
+    let has_dots = || sketches().any(|sketch| sketch.dots.iter().any(|dots| !dots.places.is_empty()));
+    if !low.is_finite() || low == high && !has_dots() {
+        return None; // a line that is a point is not seen
     }
     let captioned = tiles.iter().any(|tile| !tile.caption.is_empty());
     let caption = settings.letters * 8.0 / 7.0;
@@ -230,6 +235,7 @@ pub fn sheet(tiles: Vec<Tile>, columns: Option<usize>, settings: &Settings) -> O
     let [left_below, right_above] = frame.extent(scale, &kept.concat());
     let cell = right_above - left_below;
 
+    let missing = Missing::in_all(sketches().map(|sketch| sketch.missing.clone()));
     let mut drawing = Builder::new(settings, Inks::PAPER);
     let mut kept = kept.into_iter();
     let step = cell + DVec2::new(GAP, GAP + below);
@@ -250,7 +256,7 @@ pub fn sheet(tiles: Vec<Tile>, columns: Option<usize>, settings: &Settings) -> O
     let rows = drawing.tiles.div_ceil(columns).max(1);
     let across = columns.min(drawing.tiles.max(1)) as f64;
     let size = DVec2::new(across * step.x - GAP, rows as f64 * step.y - GAP);
-    Some(Drawing { crowded_out, ..drawing.finish(size) })
+    Some(Drawing { crowded_out, missing, ..drawing.finish(size) })
 }
 
 /// Notes and axes for a picture of this size in points.

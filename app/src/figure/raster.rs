@@ -168,7 +168,8 @@ mod tests {
         let at = |x: i32, y: i32| At { x, y };
         let dots =
             Layer::Dots { name: "vertices", diameter: 1000, color: [255, 0, 0], places: vec![at(204_800, 1000)] };
-        let drawing = Drawing { size: at(300_000, 2000), layers: vec![dots], is_exact: true, crowded_out: 0 };
+        let (layers, missing) = (vec![dots], Vec::new());
+        let drawing = Drawing { size: at(300_000, 2000), layers, is_exact: true, crowded_out: 0, missing };
         let image = image(&drawing, 1.0);
         assert_eq!(image.dimensions(), (3000, 20));
         let red = |x: u32, y: u32| image.get_pixel(x, y).0 == [255, 0, 0, 255];

@@ -159,6 +159,17 @@ fn target(path: &Path, bytes: &[u8]) -> Result<Target, (PathBuf, io::Error)> {
     Ok(Target::File { temporary, destination })
 }
 
+/// Where a file is, or would be: the same for whatever it is called by, and for links to it.
+#[must_use]
+pub fn place(path: &Path) -> PathBuf {
+    let file = behind_links(path).unwrap_or_else(|_| path.to_owned());
+    let folder = file.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+    match (folder.and_then(|folder| folder.canonicalize().ok()), file.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => std::path::absolute(&file).unwrap_or(file),
+    }
+}
+
 /// Follows links to what they name, there or not: a rename over a link would replace the link.
 fn behind_links(path: &Path) -> io::Result<PathBuf> {
     const MAX_LINKS: u32 = 40;
@@ -214,6 +225,20 @@ mod tests {
         fs::write(folder.path().join("b"), "").unwrap();
         let mode = |name| fs::metadata(folder.path().join(name)).unwrap().permissions().mode();
         assert_eq!(mode("a"), mode("b"));
+    }
+
+    #[test]
+    fn a_file_has_one_place_whatever_it_is_called_by() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| place(&folder.path().join(name));
+        fs::create_dir(folder.path().join("sub")).unwrap();
+        symlink("a", folder.path().join("link")).unwrap();
+        symlink("sub", folder.path().join("folder")).unwrap();
+        for (one, other) in [("a", "./a"), ("a", "sub/../a"), ("a", "link"), ("sub/a", "folder/a"), ("no/a", "no/./a")]
+        {
+            assert_eq!(at(one), at(other), "{one} {other}");
+        }
+        assert_ne!(at("a"), at("sub/a"));
     }
 
     #[test]

@@ -76,7 +76,10 @@ impl Mask {
                 && let Ok(judged) = judge(&made.machine, made.rule, &star, &settings)
             {
                 // The others are told of this vertex itself.
-                let told = judged.faults.iter().filter(|fault| matches!(fault, Fault::Asymmetric | Fault::Order));
+                let told = judged
+                    .faults
+                    .iter()
+                    .filter(|fault| matches!(fault, Fault::Asymmetric | Fault::Order | Fault::Start));
                 faults.extend(told.map(|fault| format!("{around}: {fault}")));
             }
             Self { of: v, groups, is_affine, faults }

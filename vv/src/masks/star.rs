@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, dvec3};
 
-use super::{Fault, Masks, TOLERANCE, measure};
+use super::{Fault, Masks, TOLERANCE, measure, step};
 use crate::engine::{Failure, Machine, Settings};
 use crate::ir::FunctionId;
 use crate::mesh::build::{Polygons, build};
@@ -122,6 +122,20 @@ impl Star {
         Some(Self { mesh, places, sectors, boundary, p: 0 })
     }
 
+    /// Generation 0 of a run on the star: what the program's `start` leaves, which may set properties and add vertices of its
+    /// own; the star itself for a program without `start`. `None` if the star is not what it was: a vertex left the set or
+    /// has other neighbours.
+    ///
+    /// # Errors
+    /// As [`Machine::run`].
+    pub fn started(&self, machine: &Machine, settings: &Settings) -> Result<Option<Self>, Failure> {
+        let Some(start) = machine.program().start else { return Ok(Some(self.clone())) };
+        let mesh = step(machine, start, &self.mesh, 0, settings)?;
+        let is_same = |v: Vertex| mesh.set.contains(v) && mesh.ring(v).slots() == self.mesh.ring(v).slots();
+        let still_there = mesh.vertex_count() >= self.mesh.vertex_count() && self.mesh.vertices().all(is_same);
+        Ok(still_there.then(|| Self { mesh, ..self.clone() }))
+    }
+
     /// The same with the vertices and the faces in the opposite order, to see whether a rule depends on it.
     #[must_use]
     pub fn reversed(&self) -> Option<Self> {
@@ -235,7 +249,8 @@ pub fn classes(star: &Star, masks: &Masks) -> Vec<Class> {
     let whole = |w: f64| (w * 1e9 * std::f64::consts::FRAC_PI_3).round() as i64;
     let least = |mask: &[(Vertex, f64)], images: &[Vec<Place>]| -> Key {
         let key = |image: &Vec<Place>| {
-            let mut key: Key = mask.iter().map(|(v, w)| (image[v.index()], whole(*w))).collect();
+            // What `start` has added is elsewhere.
+            let mut key: Key = mask.iter().filter_map(|(v, w)| Some((*image.get(v.index())?, whole(*w)))).collect();
             key.sort_unstable();
             key
         };
@@ -270,19 +285,26 @@ pub struct Judgement {
     pub faults: Vec<Fault>,
 }
 
-/// Measures the masks around the middle of a star, once more with its vertices in another order.
+/// Measures the masks around the middle of a star that the program's `start` was run on, once more with its vertices in
+/// another order.
 ///
 /// # Errors
 /// As [`measure`].
 pub fn judge(machine: &Machine, rule: FunctionId, star: &Star, settings: &Settings) -> Result<Judgement, Failure> {
-    let masks = measure(machine, rule, &star.mesh, settings)?;
-    let classes = classes(star, &masks);
-    let mut faults: Vec<Fault> = masks.faults.first().copied().into_iter().collect();
+    let measured = |star: &Star| -> Result<(Vec<Class>, Masks, bool), Failure> {
+        let started = star.started(machine, settings)?;
+        let (star, is_started) = (started.as_ref().unwrap_or(star), started.is_some());
+        let masks = measure(machine, rule, &star.mesh, settings)?;
+        Ok((classes(star, &masks), masks, is_started))
+    };
+    let (classes, masks, is_started) = measured(star)?;
+    let mut faults: Vec<Fault> = (!is_started).then_some(Fault::Start).into_iter().collect();
+    faults.extend(masks.faults.first());
     if classes.iter().any(|class| !class.symmetric) {
         faults.push(Fault::Asymmetric);
     }
-    let again = star.reversed().and_then(|other| Some((measure(machine, rule, &other.mesh, settings).ok()?, other)));
-    if again.is_none_or(|(masks, other)| !same_classes(&classes, &self::classes(&other, &masks))) {
+    let again = star.reversed().and_then(|other| measured(&other).ok());
+    if again.is_none_or(|(others, ..)| !same_classes(&classes, &others)) {
         faults.push(Fault::Order);
     }
     Ok(Judgement { classes, faults })

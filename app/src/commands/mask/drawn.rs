@@ -106,8 +106,10 @@ impl DrawingArguments {
                 let diagnostic = error(format!("`-o {}` is no figure of masks", path.display()));
                 return fail(reporter, Exit::Usage, diagnostic.hint("write an .svg, .eps, .pdf or .png"));
             }
-            if targets.iter().any(|target| target.path == *path) {
-                return fail(reporter, Exit::Usage, error(format!("`-o {}` is given twice", path.display())));
+            if let Some(Target { path: other, .. }) =
+                targets.iter().find(|t| files::place(&t.path) == files::place(path))
+            {
+                return fail(reporter, Exit::Usage, output::given_twice(other, path));
             }
             files::prepare(path, &[]).map_err(|error| input::file_failed(&error, reporter))?;
             targets.push(Target { path: path.clone(), format });

@@ -1,7 +1,7 @@
 //! What is wrong with a command line before anything is run.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use app::files;
 use vv::diagnostic::Diagnostic;
@@ -33,19 +33,14 @@ pub fn streams(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit> {
 }
 
 /// What a run goes by must not be written by it: nothing could be said of it after that. A mesh may take the place of the
-/// one that it came from, and a result that of its reference.
-pub fn not_read(
-    plan: &Plan,
-    arguments: &Arguments,
-    program: &Program,
-    others: &[PathBuf],
-) -> Result<(), Box<Diagnostic>> {
-    let place = |path: &Path| path.canonicalize().or_else(|_| std::path::absolute(path)).ok();
+/// one that it came from, and a result that of its reference, unless the run is `watched`: it would never end.
+pub fn not_read(plan: &Plan, arguments: &Arguments, program: &Program, watched: bool) -> Result<(), Box<Diagnostic>> {
     let included = program.sources.files().iter().map(|file| PathBuf::from(&file.name));
     let view = arguments.output.view_file();
-    let given = [&arguments.program].into_iter().chain(view.as_ref()).chain(arguments.look.files()).chain(others);
-    let read: BTreeSet<_> = given.cloned().chain(included).filter_map(|path| place(&path)).collect();
-    match plan.all_targets().iter().find(|target| place(target.path()).is_some_and(|path| read.contains(&path))) {
+    let results = arguments.input.iter().chain(&arguments.reference).filter(|_| watched);
+    let given = [&arguments.program].into_iter().chain(view.as_ref()).chain(arguments.look.files()).chain(results);
+    let read: BTreeSet<_> = given.cloned().chain(included).map(|path| files::place(&path)).collect();
+    match plan.all_targets().iter().find(|target| read.contains(&files::place(target.path()))) {
         Some(both) => {
             let message = format!("{} is read here, so it is not written", both.path().display());
             Err(Box::new(error(message)))

@@ -1,6 +1,6 @@
 //! Which files a run makes of which generation.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use vv::diagnostic::Diagnostic;
@@ -31,7 +31,7 @@ impl Generations {
 /// As one sentence.
 pub fn generations(text: &str) -> Result<Generations, String> {
     let wrong = || "generations are counted: 0,2,4 or 0-3".to_owned();
-    let mut all = std::collections::BTreeSet::new();
+    let mut all = BTreeSet::new();
     for part in text.split(',') {
         let (from, to) = part.split_once('-').unwrap_or((part, part));
         let number = |text: &str| text.trim().parse::<u64>().map_err(|_| wrong());
@@ -209,7 +209,7 @@ impl Plan {
     }
 
     /// Whether one of them is a figure.
-    pub fn has_figures(&self) -> bool {
+    pub fn has_figures_on_sheets(&self) -> bool {
         self.sheets.iter().any(|sheet| sheet.target.figure().is_some())
     }
 
@@ -294,7 +294,7 @@ impl Plan {
 
     /// The same in their order.
     fn in_order(&self) -> impl Iterator<Item = u64> {
-        self.shown().collect::<std::collections::BTreeSet<_>>().into_iter()
+        self.shown().collect::<BTreeSet<_>>().into_iter()
     }
 
     /// Places are known.
@@ -345,9 +345,9 @@ impl Plan {
                 diagnostic.hint("go around the mesh, `--turntable 36`, or let `vv run` show `--generations 0-3`"),
             ));
         }
-        let mut taken: BTreeMap<PathBuf, ()> = BTreeMap::new();
+        let mut taken = BTreeSet::new();
         for target in self.all_targets() {
-            if taken.insert(target.path().to_owned(), ()).is_some() {
+            if !taken.insert(files::place(target.path())) {
                 return Err(Box::new(self.written_twice(target.path())));
             }
         }

@@ -76,7 +76,6 @@ impl Run<'_> {
         picture::draw(&seen, self.shot, self.reporter, |picture| {
             self.go_on()?;
             let Some(target) = targets.next() else { return Ok(()) };
-            self.reporter.progress(format!("drawing {}", target.path().display()));
             let bytes = picture::png(&picture, self.reporter)?;
             let file = files::prepare(target.path(), &bytes);
             prepared.push(file.map_err(|error| input::file_failed(&error, self.reporter))?);

@@ -1,5 +1,6 @@
 //! What is written on figures.
 
+use super::super::notes::Missing;
 use super::*;
 use crate::annotate::Label;
 use vv::mesh::Vertex;
@@ -152,4 +153,19 @@ fn pictures_have_the_same_labels() {
     assert_eq!(inked(Label::Nothing, true), 0);
     let (opaque, wire) = (inked(Label::Vertices, true), inked(Label::Vertices, false));
     assert!(opaque > 100 && wire > opaque, "{opaque} {wire}: the eighth vertex is seen without faces");
+}
+
+#[test]
+fn what_is_not_drawn_of_the_notes_is_said() {
+    let missing = |notes: &Notes| {
+        let said = drawn(CUBE, notes, &Settings::default()).missing;
+        said.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(missing(&ring(7, Label::Vertices)), [""; 0]);
+    assert_eq!(missing(&ring(1, Label::Vertices)), ["the ring of v1 is not drawn: the vertex is hidden by faces"]);
+    assert_eq!(missing(&labelled(Label::Degrees)), [""; 0]);
+    let of = |vertices: &[usize]| {
+        vertices.iter().map(|&v| Missing { ring: Vertex::from_index(v), why: "" }).collect::<Vec<_>>()
+    };
+    assert_eq!(Missing::in_all([of(&[1, 2, 3]), of(&[2, 3]), of(&[3, 4])]), of(&[3]));
 }

@@ -173,3 +173,37 @@ fn lines_far_away_are_lighter_where_that_is_asked_for() {
     assert!(more < lightest("--style look.json"));
     check("mesh convert octahedron.obj -o a.svg --fade=2", 2, "lines fade by a number from 0 to 1");
 }
+
+#[test]
+fn a_ring_that_is_not_seen_is_told_once() {
+    const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+                        f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    let folder = Folder::with(&[("cube.obj", CUBE)]);
+    let hidden = "the ring of v1 is not drawn: the vertex is hidden by faces";
+    for more in ["", "-o b.png", "-o b.png -o c.pdf"] {
+        let said = folder.check(&format!("render cube.obj -o a.svg --ring 1 {more}"), 0, hidden).stderr;
+        assert_eq!(said.matches(hidden).count(), 1, "{said}");
+    }
+    folder.check("render cube.obj -o a.svg --ring 7", 0, "");
+    // Who goes around it sees all of it.
+    folder.check("render cube.obj -o a.gif --ring 1 --turntable 4 --view front --size 64x64", 0, "");
+    folder.check("render cube.obj -o a.png --labels vertices --cut x:1 --size 64x64", 0, "");
+}
+
+#[test]
+fn a_mesh_that_cannot_be_drawn_is_refused_with_a_reason() {
+    let grow = "param double by = 1; void step(mesh& S) { forall v in S v$pos *= by; }\n";
+    let folder = Folder::with(&[("grow.vv", grow)]);
+    for output in ["a.svg", "a.png", "a.pdf"] {
+        let refused = |by: &str, said: &str| {
+            folder.check(&format!("run grow.vv -i octahedron.obj -D by={by} -o {output}"), 1, said);
+        };
+        refused("1e300", "its coordinates reach 1e300, and up to 1e75 can be drawn");
+        refused("1e-300", "it is 2e-300 in size, and from 1e-75 on it could be drawn");
+        folder.check(&format!("run grow.vv -i octahedron.obj -D by=1e60 -o {output}"), 0, "");
+    }
+    let nowhere = "void step(mesh& S) { forall v in S v$pos *= sqrt(-1.0); }\n";
+    check_file("no.vv", nowhere, "run no.vv -i octahedron.obj -o a.svg", 1, "no vertex has a finite position");
+    folder.check("run grow.vv -i octahedron.obj -D by=0 -o a.svg", 2, "nothing of the mesh is seen from there");
+    folder.check("run grow.vv -i octahedron.obj -D by=0 -o a.off", 0, "");
+}

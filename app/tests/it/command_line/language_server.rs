@@ -405,11 +405,29 @@ fn an_editor_that_is_gone_ends_the_server() {
 #[test]
 fn somebody_who_speaks_something_else_is_told() {
     let folder = Folder::with(&[]);
+    for (said, why) in [
+        ("hello\r\n\r\n", "`hello` is no line of a header"),
+        ("Content-Length: 99000000000\r\n\r\n{", "`Content-Length: 99000000000` announces more than"),
+        ("Content-Length: 17\r\n\r\n{\"method\":\"exit\"}", "expected initialize request"),
+        (
+            "Content-Length: 43\r\n\r\n{\"id\":1,\"method\":\"initialize\",\"params\":3}   ",
+            "the parameters of `initialize` cannot be read",
+        ),
+    ] {
+        let ended = folder.run_with_stdin("lsp", said);
+        assert_eq!(ended.code, Some(3), "{said}: {}", ended.stderr);
+        assert!(ended.stderr.contains(&format!("the editor is not understood: {why}")), "{said}: {}", ended.stderr);
+    }
+}
+
+/// An editor that waits for an answer keeps stdin open.
+#[test]
+fn somebody_who_speaks_something_else_is_told_at_once() {
+    let folder = Folder::with(&[]);
     let mut command = folder.command("lsp");
     let mut server = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let _ = server.stdin.take().unwrap().write_all(b"hello\r\n\r\n");
-    let ended = server.wait_with_output().unwrap();
-    let said = String::from_utf8_lossy(&ended.stderr);
-    assert_eq!(ended.status.code(), Some(3));
-    assert!(said.contains("the editor is not understood"), "{said}");
+    let mut stdin = server.stdin.take().unwrap();
+    let _ = stdin.write_all(b"Content-Length: 40\r\n\r\n{\"id\":1,\"method\":\"initialize\",\"params\":3}");
+    assert_eq!(server.wait_with_output().unwrap().status.code(), Some(3));
+    drop(stdin);
 }

@@ -96,3 +96,22 @@ fn a_rule_that_does_not_end_ends_the_search() {
     let ended = folder.check("mask endless.vv --timeout 0.2", 4, "the time allowed for a step is over");
     assert!(ended.stdout.is_empty(), "{}", ended.stdout);
 }
+
+#[test]
+fn masks_are_those_of_a_run_that_began_with_start() {
+    let text = "mesh { double part = 0; };\n\
+                void start(mesh& S) { S$part = 0.25; vertex alone; alone$pos = vec(9, 9, 9); add alone to S; }\n\
+                void step(mesh& S) {\n  synchronize S;\n  forall v in S {\n    if (valence v == 0) continue;\n    \
+                vec sum = vec(0, 0, 0);\n    forall q in v sum += `q$pos;\n    \
+                v$pos = `v$pos * (1 - S$part) + sum * S$part / (1.0 * valence v);\n  }\n}\n";
+    let folder = Folder::with(&[("part.vv", text)]);
+    let table = folder.check("mask part.vv --valence 5", 0, "").stdout;
+    assert!(table.contains("at p   p: 3/4   q1…q5: 1/20\n"), "{table}");
+    let table = folder.check("mask part.vv -i octahedron.obj --vertex 3", 0, "").stdout;
+    assert!(table.contains("v3   v3: 3/4   v1 v2 v5 v6: 1/16\n"), "{table}");
+    let torn = "void start(mesh& S) { forall v in S v$pos *= 1; mesh none; S = none; }\n";
+    let folder = Folder::with(&[("torn.vv", &format!("{torn}{THIRDS}"))]);
+    let said = "`start` changes what is around the vertex, so these are the masks of the rule without it";
+    let table = folder.check("mask torn.vv --valence 4", 0, said).stdout;
+    assert!(table.contains("at p   p: 2/3   q1…q4: 1/12\n"), "{table}");
+}

@@ -191,3 +191,27 @@ fn an_interrupted_run_leaves_nothing_behind() {
     assert_eq!(child.wait().unwrap().signal(), Some(15));
     assert_eq!((folder.names(), folder.read("old.obj").as_str()), (before, "old"));
 }
+
+/// What work that takes a while writes to a terminal, as `script` of the system plays one.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(folder: &Folder, arguments: &str) -> String {
+    let vv = format!("{} {arguments}", env!("CARGO_BIN_EXE_vv"));
+    let mut command = std::process::Command::new("script");
+    command.args(["--quiet", "--command", &vv, "/dev/null"]).current_dir(folder.path(""));
+    let output = command.env("TERM", "xterm").stdin(Stdio::null()).output().unwrap();
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_terminal_is_told_how_far_long_work_has_come_and_a_pipe_is_not() {
+    let folder = Folder::with(&[]);
+    let endless = "run endless.vv -i octahedron.obj --timeout 1.5";
+    let shown = on_a_terminal(&folder, endless);
+    assert!(shown.contains("step 1 of 1 of `step`: 6 vertices"), "{shown}");
+    let said = folder.check(endless, 4, "the time allowed for a step is over").stderr;
+    assert!(!said.contains("6 vertices"), "{said}");
+    let film = "run move.vv -i octahedron.obj -D far=1,2,3 --turntable 40 -o {far}.gif --size 320x240";
+    let shown = on_a_terminal(&folder, film);
+    assert!(shown.contains("run 3 of 3: ") && shown.contains(" of 40"), "{shown}");
+}

@@ -137,7 +137,7 @@ fn what_a_style_file_says_wrongly_is_told_at_its_place() {
         check_file("look.json", text, arguments, 3, said);
     };
     refused("{\n \"style\": {\"egdes\": true}}", "look.json:2:12: error: nothing is called `egdes` here");
-    refused("{\"style\": {\"edges\": 1}}", "look.json:1:21: error: invalid type: integer `1`, expected a boolean");
+    refused("{\"style\": {\"edges\": 1}}", "look.json:1:21: error: true or false is wanted here, and there is `1`");
     refused("{\"page\": \"wide\"}", "look.json:1:10: error: a page is a width in millimetres");
     refused("{\"lines\": {\"inner\": \"thin\"}}", "look.json:1:21: error: `thin` is no width in points");
     refused("{\"lines\": {\"outer\": \"1\"}}", "look.json:1:21: error: lines are");
