@@ -196,7 +196,7 @@ fn an_interrupted_run_leaves_nothing_behind() {
 #[cfg(target_os = "linux")]
 fn on_a_terminal(folder: &Folder, arguments: &str) -> String {
     let vv = format!("{} {arguments}", env!("CARGO_BIN_EXE_vv"));
-    let mut command = std::process::Command::new("script");
+    let mut command = Command::new("script");
     command.args(["--quiet", "--command", &vv, "/dev/null"]).current_dir(folder.path(""));
     let output = command.env("TERM", "xterm").stdin(Stdio::null()).output().unwrap();
     String::from_utf8_lossy(&output.stdout).into_owned()
