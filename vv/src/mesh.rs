@@ -341,17 +341,22 @@ impl Mesh {
     }
 
     /// Keeps the vertices of [`Mesh::set`], renumbered densely in order of creation; entries of rings that name others
-    /// become gaps, properties that name them null. Returns how many were forgotten. Rings are laid out anew in order.
+    /// become gaps, properties that name them null. Returns how many were forgotten.
     ///
-    /// Cost: nothing but a scan where the set is the whole universe and the arena is tight.
+    /// Cost: nothing but a scan where the set is the whole universe and the arena is tight. Where the set is all vertices
+    /// from one on, these move to the beginning of the arrays; else rings are laid out anew in order.
     pub fn keep_only_set(&mut self) -> usize {
         let n = self.vertex_count();
-        let whole = self.set.is_all_of(n);
-        let members = if whole { n } else { self.set.iter().filter(|v| v.index() < n).count() };
+        let from = self.set.is_all_from(n);
+        let members = from.map_or_else(|| self.set.iter().filter(|v| v.index() < n).count(), |first| n - first);
         let forgotten = n - members;
-        if whole || (forgotten == 0 && self.set.len() == members) {
+        if forgotten == 0 && self.set.len() == members {
             self.rings.tidy();
             return 0;
+        }
+        if let Some(first) = from {
+            self.keep_from(first);
+            return forgotten;
         }
         let is_member = Members::new(&self.set, n);
         let mut kept = vec![None; n];
@@ -370,17 +375,31 @@ impl Mesh {
         );
         for property in &mut self.vertex_properties {
             property.values = property.values.keep(&flags);
-            property.values.rename(&rename);
         }
-        for property in &mut self.rings.properties {
-            property.values.rename(&rename);
+        self.rename(rename);
+        forgotten
+    }
+
+    /// Forgets the vertices before one.
+    fn keep_from(&mut self, first: usize) {
+        self.rings.keep_from(first);
+        self.positions.drop_first(first);
+        for property in &mut self.vertex_properties {
+            property.values.drop_first(first);
+        }
+        self.rename(|v| Vertex::from_index(v.index().checked_sub(first)?));
+    }
+
+    /// Renames the vertices that properties and the set name.
+    fn rename(&mut self, name: impl Fn(Vertex) -> Option<Vertex>) {
+        for property in self.vertex_properties.iter_mut().chain(&mut self.rings.properties) {
+            property.values.rename(&name);
         }
         for (_, value) in &mut self.mesh_properties {
             if let Value::Vertex(v) = value {
-                *v = v.and_then(rename);
+                *v = v.and_then(&name);
             }
         }
-        self.set = self.set.renamed(rename);
-        forgotten
+        self.set = self.set.renamed(name);
     }
 }

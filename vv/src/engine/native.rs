@@ -86,6 +86,7 @@ pub(crate) struct Native {
     memos: Vec<Memo>,
     creates: bool,
     grows: bool,
+    replaces: bool,
     edits: bool,
 }
 
@@ -175,6 +176,7 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
         layout,
         creates: facts.creates(),
         grows: facts.grows,
+        replaces: facts.replaces,
         edits: facts.edits(),
         old_reads: facts.old_reads,
         sites,
@@ -229,6 +231,7 @@ impl Native {
             memos: &self.memos,
             creates: self.creates,
             grows: self.grows,
+            replaces: self.replaces,
             edits: self.edits,
             settings,
         };

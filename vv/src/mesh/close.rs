@@ -46,23 +46,28 @@ fn forget(mesh: &mut Mesh, stop: &Stop) -> Result<Option<Diagnostic>, Stopped> {
         return Ok(None);
     }
     let members = Members::new(&mesh.set, mesh.vertex_count());
-    let mut named = vec![false; mesh.vertex_count()];
+    // One pass in order of memory tells of most meshes that none is named.
+    let is_lost = |x: Option<Vertex>| x.is_some_and(|x| !members.contains(x));
+    if !mesh.slots().iter().fold(false, |lost, &x| lost | is_lost(x)) {
+        mesh.keep_only_set();
+        return Ok(None);
+    }
+    let mut named = Vec::new();
     let mut torn = Vec::new(); // those that name them, by their new numbers
     let mut evidence = Vec::new();
     for (kept, v) in mesh.vertices().filter(|&v| members.contains(v)).enumerate() {
         stop.check()?;
-        let mut lost = mesh.ring(v).vertices().filter(|&x| !members.contains(x)).peekable();
-        if lost.peek().is_some() {
+        let lost = mesh.ring(v).vertices().filter(|&x| !members.contains(x));
+        let before = named.len();
+        named.extend(lost);
+        if named.len() > before {
             torn.extend(Vertex::from_index(kept));
         }
-        for x in lost {
-            if let Some(n) = named.get_mut(x.index()) {
-                *n = true;
-            }
-        }
     }
-    let forgotten = named.iter().filter(|&&n| n).count();
     mesh.keep_only_set();
+    named.sort_unstable();
+    named.dedup();
+    let forgotten = named.len();
     if forgotten == 0 {
         return Ok(None);
     }

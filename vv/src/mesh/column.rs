@@ -36,6 +36,20 @@ impl<T: Clone + Send> Column<T> {
     }
 }
 
+impl<T: Clone + Send> Column<T> {
+    /// Forgets the first `n` elements: the others move to their place, unless a clone shares them.
+    pub(crate) fn drop_first(&mut self, n: usize) {
+        let n = n.min(self.0.len());
+        match Arc::get_mut(&mut self.0) {
+            Some(values) => {
+                values.drain(..n);
+                values.shrink_to_fit();
+            }
+            None => self.0 = Arc::new(self.0[n..].to_vec()),
+        }
+    }
+}
+
 impl<T: Send> Column<T> {
     /// Bytes of the array's capacity.
     #[must_use]

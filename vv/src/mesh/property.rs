@@ -217,6 +217,11 @@ impl Values {
         }
     }
 
+    /// The values but for the first `n`.
+    pub(super) fn drop_first(&mut self, n: usize) {
+        on_column!(self, c => c.drop_first(n));
+    }
+
     /// Renames the vertices in a column of vertices.
     pub(super) fn rename(&mut self, name: &dyn Fn(Vertex) -> Option<Vertex>) {
         if let Self::Vertex(c) = self {

@@ -1,5 +1,7 @@
 //! Rings in one arena: each a run of slots with room to grow, edited in place.
 
+use std::num::NonZeroU32;
+
 use rustc_hash::FxHashSet;
 
 use super::{Column, Full, Property, Value, Vertex};
@@ -310,6 +312,31 @@ impl Rings {
         let mut rings = Self { heads: heads.into(), slots: slots.into(), properties };
         open.into_iter().for_each(|v| rings.settle_gaps(v));
         rings
+    }
+
+    /// As [`Rings::keep`] for all vertices from one on, where they lie.
+    pub(super) fn keep_from(&mut self, first: usize) {
+        self.heads.drop_first(first);
+        let offset = |head: &Head| if head.capacity > 0 { head.offset } else { u32::MAX };
+        let start = self.heads.iter().fold(self.slots.len() as u32, |start, head| start.min(offset(head)));
+        for head in self.heads.edit() {
+            head.offset = head.offset.saturating_sub(start);
+        }
+        self.slots.drop_first(start as usize);
+        for property in &mut self.properties {
+            property.values.drop_first(start as usize);
+        }
+        let mut lost = 0;
+        for slot in self.slots.edit() {
+            let number = slot.map_or(0, |v| v.0.get());
+            let new = number.saturating_sub(first as u32);
+            lost |= if new == 0 { number } else { 0 };
+            *slot = NonZeroU32::new(new).map(Vertex);
+        }
+        if lost != 0 {
+            (0..self.len()).filter_map(Vertex::from_index).for_each(|v| self.settle_gaps(v));
+        }
+        self.tidy();
     }
 
     /// Lays the arena out anew if more than half of it is room that no ring uses.

@@ -51,11 +51,13 @@ impl VertexSet {
         self.0.contains(v)
     }
 
-    /// Whether these are the first `n` vertices of the universe, added in order of creation; `false` says nothing. O(1).
-    pub(super) fn is_all_of(&self, n: usize) -> bool {
-        // Ascending, without holes, and the last one is the n-th.
-        let last = self.0.order.last().copied().flatten();
-        self.0.places.is_none() && self.0.order.len() == n && last.is_none_or(|v| v.index() + 1 == n)
+    /// Where these are the vertices of a universe of `n` from one on, added in order of creation: the index of that; `None`
+    /// says nothing. O(1).
+    pub(super) fn is_all_from(&self, n: usize) -> Option<usize> {
+        match self.span() {
+            Some((first, last)) => (last.index() + 1 == n).then_some(first.index()),
+            None => self.is_empty().then_some(n),
+        }
     }
 
     /// The members in order of addition as they lie in memory, `None` where one was removed.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::DVec3;
 use proptest::prelude::*;
 use vv::mesh::validate::{Finding, validate};
 use vv::mesh::{Mesh, Value, Vertex, VertexSet};
@@ -186,16 +187,31 @@ proptest! {
             let damaged = |f: &Finding| matches!(f, Finding::Ring { .. });
             prop_assert!(!validate(&mesh, &Stop::new()).unwrap().iter().any(damaged));
         }
-        // Laid out anew, nothing changes.
-        mesh.set = mesh.vertices().collect();
-        mesh.set.remove(vertex(9));
-        mesh.keep_only_set();
-        for (&v, ring) in rings.iter().take(8) {
-            let expected = model(&[], v, &Edit::Make(ring.iter().map(|s| s.0.filter(|x| *x != vertex(9))).collect())).unwrap();
-            prop_assert_eq!(slots(&mesh, v), expected.iter().map(|s| s.0).collect::<Vec<_>>());
-            for x in mesh.ring(v).vertices().filter(|&x| v < x) {
-                let value = ring.iter().find(|s| s.0 == Some(x)).map(|s| Value::Int(s.1));
-                prop_assert_eq!(mesh.edge_value(property, v, x), value);
+        // Those that stay keep what they have, whoever is forgotten.
+        let oldest = mesh.declare_vertex_property("oldest", Value::Vertex(Some(vertex(1))));
+        for v in mesh.vertices() {
+            mesh.set_position(v, DVec3::splat(v.index() as f64));
+            mesh.set_vertex_value(oldest, v, Value::Vertex(Some(vertex(3).min(v))));
+        }
+        for forgotten in [9..=9, 1..=2, 4..=4, 1..=9] {
+            let mut mesh = mesh.clone();
+            let kept: Vec<Vertex> = mesh.vertices().filter(|v| !forgotten.contains(&(v.index() + 1))).collect();
+            let new = |v: Vertex| kept.binary_search(&v).ok().and_then(Vertex::from_index);
+            mesh.set = kept.iter().copied().collect();
+            prop_assert_eq!(mesh.keep_only_set(), 9 - kept.len());
+            prop_assert_eq!((mesh.vertex_count(), mesh.set.len()), (kept.len(), kept.len()));
+            for &old in &kept {
+                let (v, ring) = (new(old).unwrap(), &rings[&old]);
+                let named = |x: Option<Vertex>| x.and_then(new);
+                let expected = model(&[], v, &Edit::Make(ring.iter().map(|s| named(s.0)).collect())).unwrap();
+                prop_assert_eq!(slots(&mesh, v), expected.iter().map(|s| s.0).collect::<Vec<_>>());
+                for &(x, value) in ring {
+                    if let Some(x) = named(x).filter(|&x| v < x) {
+                        prop_assert_eq!(mesh.edge_value(property, v, x), Some(Value::Int(value)));
+                    }
+                }
+                prop_assert_eq!(mesh.position(v), DVec3::splat(old.index() as f64));
+                prop_assert_eq!(mesh.vertex_value(oldest, v), Some(Value::Vertex(new(vertex(3).min(old)))));
             }
         }
     }

@@ -82,6 +82,8 @@ pub(super) struct Facts {
     pub(super) fresh_capacity: u32,
     /// Whether vertices are spliced into rings.
     pub(super) grows: bool,
+    /// Whether sets are assigned: what was in them may lie beside what is new.
+    pub(super) replaces: bool,
 }
 
 impl Facts {
@@ -145,7 +147,8 @@ impl Facts {
             })
             .collect();
         let (fresh_capacity, grows) = growth(program);
-        Self { functions, old_reads: old_reads(program), fresh_capacity, grows }
+        let replaces = own.iter().any(|o| o.assigns_sets);
+        Self { functions, old_reads: old_reads(program), fresh_capacity, grows, replaces }
     }
 
     pub(super) fn function(&self, id: FunctionId) -> Option<&FunctionFacts> {
@@ -178,6 +181,7 @@ impl Facts {
 #[derive(Default)]
 struct Own {
     effects: Effects,
+    assigns_sets: bool,
     calls: Vec<usize>,
     size: usize,
 }
@@ -221,6 +225,7 @@ impl Own {
                 }
                 self.effects.creates |= matches!(e.kind, ExprKind::Create);
                 self.effects.lists |= matches!(e.kind, ExprKind::AssignRing(..));
+                self.assigns_sets |= matches!(e.kind, ExprKind::AssignSet(..));
             }
             Node::Place(_) | Node::Ring(_) => {}
         }

@@ -133,6 +133,8 @@ pub(super) struct Fixed<'a> {
     pub(super) creates: bool,
     /// Whether it splices vertices into rings.
     pub(super) grows: bool,
+    /// Whether it assigns sets.
+    pub(super) replaces: bool,
     /// Whether it edits rings.
     pub(super) edits: bool,
     pub(super) settings: &'a Settings,

@@ -58,14 +58,14 @@ pub(super) extern "C" fn call_builtin(context: *mut Context, index: u32) -> u32 
 }
 
 /// Calls a function of one double by its address.
-pub(super) extern "C" fn call_d1(function: usize, x: f64) -> f64 {
+pub(super) extern "C" fn call_d1(_: *mut Context, function: usize, x: f64) -> f64 {
     // SAFETY: the address was taken from a function of this type when the program was compiled.
     let function = unsafe { std::mem::transmute::<usize, fn(f64) -> f64>(function) };
     catch_unwind(|| function(x)).unwrap_or(f64::NAN)
 }
 
 /// Calls a function of two doubles by its address.
-pub(super) extern "C" fn call_d2(function: usize, x: f64, y: f64) -> f64 {
+pub(super) extern "C" fn call_d2(_: *mut Context, function: usize, x: f64, y: f64) -> f64 {
     // SAFETY: as in `call_d1`.
     let function = unsafe { std::mem::transmute::<usize, fn(f64, f64) -> f64>(function) };
     catch_unwind(|| function(x, y)).unwrap_or(f64::NAN)

@@ -30,10 +30,12 @@ impl Run<'_> {
         let has_edge_values = !self.mesh.edge_properties().is_empty();
         let slots = self.mesh.slots().len();
         let (mut vertex_room, mut slot_room) = (n, slots);
-        // Refinement ends with four times as many; pages that are not touched cost nothing.
+        // Refinement ends with four times as many, or with as many besides if it makes a new set; pages that are not touched
+        // cost nothing.
         let each = VERTEX_BYTES + 8 * self.vertex_columns.len();
-        if self.fixed.creates && self.allows(4 * n * each + 16 * slots) {
-            (vertex_room, slot_room) = (4 * n + 64, 4 * slots + 512);
+        let times = if self.fixed.replaces { 5 } else { 4 };
+        if self.fixed.creates && self.allows(times * (n * each + 4 * slots)) {
+            (vertex_room, slot_room) = (times * n + 64, times * slots + 512);
         }
         let doubled = self.mesh.heads().iter().map(|head| room_for(2 * head.len) as usize).sum::<usize>();
         let grows = self.fixed.grows && !has_edge_values && u32::try_from(doubled).is_ok();

@@ -50,8 +50,8 @@ runtime! {
     GrowSlots = memory::grow_slots, (I64, I64) -> I32;
     Unwind = super::unwind, (I64, I32);
     CallBuiltin = builtins::call_builtin, (I64, I32) -> I32;
-    CallD1 = builtins::call_d1, (I64, F64) -> F64;
-    CallD2 = builtins::call_d2, (I64, F64, F64) -> F64;
+    CallD1 = builtins::call_d1, (I64, I64, F64) -> F64;
+    CallD2 = builtins::call_d2, (I64, I64, F64, F64) -> F64;
     Synchronize = rings::synchronize, (I64, I32, I32) -> I32;
     Holds = rings::holds, (I64, I32) -> I32;
     Make = rings::make, (I64, I32, I64, I32) -> I32;

@@ -130,9 +130,10 @@ impl Translator<'_, '_> {
         self.continue_in(again);
         let kept = self.b.ins().load(types::F64, flags, entry, 16);
         self.jump_with(done, &[kept]);
+        self.b.set_cold_block(compute);
         self.continue_in(compute);
         let symbol = if operands.len() == 1 { Symbol::CallD1 } else { Symbol::CallD2 };
-        let computed = self.call_with(symbol, &all).ok_or_else(wrong_type)?;
+        let computed = self.call_rarely(symbol, &all)?.ok_or_else(wrong_type)?;
         for (k, &x_bits) in bits.iter().enumerate() {
             self.b.ins().store(flags, x_bits, entry, 8 * k as i32);
         }

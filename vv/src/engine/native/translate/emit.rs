@@ -29,13 +29,9 @@ impl Translator<'_, '_> {
     pub(super) fn call(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
         let mut all = vec![self.context];
         all.extend_from_slice(operands);
-        self.call_with(symbol, &all)
-    }
-
-    pub(super) fn call_with(&mut self, symbol: Symbol, operands: &[Value]) -> Option<Value> {
         let id = self.unit.symbols.get(&symbol).copied()?;
         let function = self.function_ref(id);
-        let call = self.b.ins().call(function, operands);
+        let call = self.b.ins().call(function, &all);
         self.b.inst_results(call).first().copied()
     }
 
