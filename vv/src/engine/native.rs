@@ -10,7 +10,7 @@
 //! be made executable; then the interpreter runs it.
 //!
 //! A stop is asked for at every round of a loop and at every call: a load and a branch that is never taken, one to two per
-//! cent of a step of the paper's Loop listing.
+//! cent of a step of the paper's Loop listing. Loops round one ring that only compute are over too soon to ask.
 
 mod context;
 mod effects;

@@ -15,6 +15,8 @@
 //! ψ⁻¹(v, w) = (next_v w, v), so r ψ⁻¹ r (w, v) = r ψ⁻¹(v, w) = r(next_v w, v) = (v, next_v w) = φ(w, v). Hence
 //! φ = r ψ⁻¹ r: the orbits of φ are those of ψ with every edge reversed, in reversed order. ∎
 
+use rustc_hash::FxHashMap;
+
 use super::finder::{Beside, Finder};
 use super::members::Members;
 use super::{Mesh, Vertex, VertexSet};
@@ -23,8 +25,11 @@ use crate::stop::{Stop, Stopped};
 /// Orbits up to this long are walked from each of their corners; only longer ones leave marks.
 const SHORT: usize = 8;
 
-/// No slot.
-const NONE: u32 = u32::MAX;
+/// Slots that have a bit of their own in a [`Walker::left`].
+const BITS: u32 = 8;
+
+/// The slot is told by [`Walker::far`].
+const FAR: u16 = 0xff;
 
 /// The polygons of a mesh, flat: all corners one after the other.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -120,10 +125,11 @@ struct Walker<'a> {
     finder: Finder<'a>,
     members: Members,
     faces: Faces,
-    /// For each vertex the slot at which its first face leaves it, or [`NONE`].
-    first: Vec<u32>,
-    /// For each vertex the slots at which faces leave it that were found from older corners: a bit for each of the first.
-    found: Vec<u8>,
+    /// For each vertex the slots at which faces leave it that were found from older corners, a bit for each of the first
+    /// [`BITS`]; above them the slot of the first of these faces, from 1, or [`FAR`].
+    left: Vec<u16>,
+    /// The slots of first faces behind [`BITS`].
+    far: FxHashMap<Vertex, u32>,
     /// The orbit in hand: each corner with the slot by which it is left.
     path: Vec<(Vertex, u32)>,
     /// Slots of the arena that long walks have passed; empty while there was none.
@@ -132,14 +138,15 @@ struct Walker<'a> {
 
 impl<'a> Walker<'a> {
     fn new(mesh: &'a Mesh, members: Members) -> Self {
-        let slots = mesh.vertices().filter(|&v| members.contains(v)).map(|v| mesh.ring(v).slots().len()).sum();
+        let heads = mesh.vertices().zip(mesh.heads()).filter(|&(v, _)| members.contains(v));
+        let slots = heads.map(|(_, head)| head.len as usize).sum();
         Self {
             finder: Finder::new(mesh),
             members,
             // Room that is not needed is never touched.
             faces: Faces { corners: Vec::with_capacity(slots), ends: Vec::with_capacity(slots / 3) },
-            first: vec![NONE; mesh.vertex_count()],
-            found: vec![0; mesh.vertex_count()],
+            left: vec![0; mesh.vertex_count()],
+            far: FxHashMap::default(),
             path: Vec::new(),
             visited: Vec::new(),
         }
@@ -147,12 +154,12 @@ impl<'a> Walker<'a> {
 
     fn add_faces_from(&mut self, v: Vertex, stop: &Stop) -> Result<(), Stopped> {
         let Some(ring) = self.finder.short(v) else { return self.add_faces_from_long(v, stop) };
-        let pairs = ring.younger_pairs(v) & !u32::from(self.found[v.index()]);
+        let left = self.left[v.index()];
+        let pairs = ring.younger_pairs(v) & !u32::from(left);
         if pairs == 0 {
             return Ok(());
         }
-        let first = self.first[v.index()];
-        let from_first = if first == NONE { u32::MAX } else { u32::MAX << first };
+        let from_first = u32::MAX << (left >> BITS).saturating_sub(1);
         for mut pairs in [pairs & from_first, pairs & !from_first] {
             while pairs != 0 {
                 let i = pairs.trailing_zeros();
@@ -168,9 +175,9 @@ impl<'a> Walker<'a> {
     #[inline(never)]
     fn add_faces_from_long(&mut self, v: Vertex, stop: &Stop) -> Result<(), Stopped> {
         let ring = self.finder.ring(v);
-        let start = match self.first[v.index()] {
-            NONE => 0,
-            slot => slot as usize,
+        let start = match self.left[v.index()] >> BITS {
+            FAR => self.far.get(&v).map_or(0, |&slot| slot as usize),
+            slot => usize::from(slot.saturating_sub(1)),
         };
         for i in (start..ring.len()).chain(0..start) {
             let next = if i + 1 == ring.len() { 0 } else { i + 1 };
@@ -191,13 +198,17 @@ impl<'a> Walker<'a> {
         if !self.members.contains(x) || !self.members.contains(w) {
             return Ok(());
         }
-        let (Some(at_x), Some(at_w)) = (self.finder.beside(v, x), self.finder.beside(v, w)) else { return Ok(()) };
+        let (Some(ring_x), Some(ring_w)) = (self.finder.short(x), self.finder.short(w)) else {
+            return self.add_face_beside_long((v, leaves_v), x, w, stop);
+        };
+        let (Some(at_x), Some(at_w)) = (ring_x.find(v), ring_w.find(v)) else { return Ok(()) };
+        let (at_x, at_w) = (ring_x.beside(at_x), ring_w.beside(at_w));
         // Gaps are less than every vertex. An older corner has this face already, if it is one.
         if (at_x.previous < Some(v)) | (at_w.next < Some(v)) {
             return Ok(());
         }
         if at_x.previous == Some(w) && at_w.next == Some(x) && x != w {
-            self.add(&[v, x, w], &[leaves_v, at_x.before, at_w.place]);
+            self.add([v, x, w], [leaves_v, at_x.before, at_w.place]);
             return Ok(());
         }
         if let Some(y) = at_x.previous
@@ -205,16 +216,27 @@ impl<'a> Walker<'a> {
             && y != v
             && y != w
             && self.members.contains(y)
-            && let Some(at_y) = self.finder.beside(x, y)
+            && let Some(ring_y) = self.finder.short(y)
+            && let Some(at_y) = ring_y.find(x)
+            && let at_y = ring_y.beside(at_y)
             && at_y.previous == Some(w)
         {
-            self.add(&[v, x, y, w], &[leaves_v, at_x.before, at_y.before, at_w.place]);
+            self.add([v, x, y, w], [leaves_v, at_x.before, at_y.before, at_w.place]);
             return Ok(());
         }
         self.add_long_face((v, leaves_v), (x, at_x), (w, at_w), stop)
     }
 
-    /// As [`Walker::add_face`], for an orbit of more corners.
+    /// As [`Walker::add_face`], where one of the two has a long ring.
+    #[inline(never)]
+    fn add_face_beside_long(&mut self, v: (Vertex, u32), x: Vertex, w: Vertex, stop: &Stop) -> Result<(), Stopped> {
+        match (self.finder.beside(v.0, x), self.finder.beside(v.0, w)) {
+            (Some(at_x), Some(at_w)) => self.add_long_face(v, (x, at_x), (w, at_w), stop),
+            _ => Ok(()),
+        }
+    }
+
+    /// As [`Walker::add_face`], for an orbit of any corners.
     #[inline(never)]
     fn add_long_face(
         &mut self,
@@ -231,8 +253,12 @@ impl<'a> Walker<'a> {
             Walk::Long => self.walk_long(v, leaves_v, stop)?,
         };
         if is_face {
-            let (corners, leaves): (Vec<_>, Vec<_>) = self.path.iter().copied().unzip();
-            self.add(&corners, &leaves);
+            self.faces.corners.extend(self.path.iter().map(|&(corner, _)| corner));
+            self.faces.ends.push(self.faces.corners.len() as u32);
+            for i in 0..self.path.len() {
+                let (corner, slot) = self.path[i];
+                self.leave(corner, slot);
+            }
         }
         Ok(())
     }
@@ -294,16 +320,28 @@ impl<'a> Walker<'a> {
 
     /// Adds a face, whose corners are left by these slots.
     #[inline(always)]
-    fn add(&mut self, corners: &[Vertex], leaves: &[u32]) {
-        self.faces.corners.extend_from_slice(corners);
+    fn add<const N: usize>(&mut self, corners: [Vertex; N], slots: [u32; N]) {
+        self.faces.corners.extend_from_slice(&corners);
         self.faces.ends.push(self.faces.corners.len() as u32);
-        for (corner, &slot) in corners.iter().zip(leaves) {
-            let first = &mut self.first[corner.index()];
-            *first = if *first == NONE { slot } else { *first };
-            if slot < u8::BITS {
-                self.found[corner.index()] |= 1 << slot;
-            }
+        for i in 0..N {
+            self.leave(corners[i], slots[i]);
         }
+    }
+
+    /// Notes that a face leaves a corner by a slot.
+    #[inline(always)]
+    fn leave(&mut self, corner: Vertex, slot: u32) {
+        let left = &mut self.left[corner.index()];
+        let is_first = *left >> BITS == 0;
+        if slot >= BITS {
+            if is_first {
+                *left |= FAR << BITS;
+                self.far.insert(corner, slot);
+            }
+            return;
+        }
+        let first = if is_first { (slot as u16 + 1) << BITS } else { 0 };
+        *left |= first | 1 << slot;
     }
 }
 

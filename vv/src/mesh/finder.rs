@@ -72,7 +72,8 @@ impl<'a> Finder<'a> {
     #[inline(always)]
     pub(super) fn short(&self, v: Vertex) -> Option<ShortRing<'a>> {
         let head = self.heads.get(v.index()).filter(|head| head.len as usize <= AT_ONCE)?;
-        let slots = self.slots.get(head.offset as usize..)?.first_chunk()?;
+        let at = head.offset as usize;
+        let slots = self.slots.get(at..at + AT_ONCE)?.first_chunk()?;
         Some(ShortRing { slots, len: head.len })
     }
 
@@ -126,14 +127,16 @@ impl ShortRing<'_> {
         self.slots[i as usize % AT_ONCE]
     }
 
+    /// The slot of a vertex.
     #[inline(always)]
-    fn find(self, x: Vertex) -> Option<u32> {
+    pub(super) fn find(self, x: Vertex) -> Option<u32> {
         let i = bits(self.slots, |y| y == x.0.get()).trailing_zeros();
         (i < self.len).then_some(i)
     }
 
+    /// What stands in a slot, and beside it.
     #[inline(always)]
-    fn beside(self, place: u32) -> Beside {
+    pub(super) fn beside(self, place: u32) -> Beside {
         let before = if place == 0 { self.len - 1 } else { place - 1 };
         Beside { place, before, previous: self.slot(before), next: self.slot(self.after(place)) }
     }

@@ -52,6 +52,11 @@ pub(super) enum Key {
     },
     /// Where in the arena the ring of a vertex lies, wherever that is.
     Lies(Value),
+    /// How many gaps a ring has.
+    Gaps {
+        v: Value,
+        old: bool,
+    },
     /// `x` stands in the ring of `v`.
     Stands {
         x: Value,
@@ -157,7 +162,7 @@ impl Known {
     /// Rings may have changed, but for those of some vertices. The arena may have moved.
     fn forget_rings_but(&mut self, of_old: bool, stays: impl Fn(Value) -> bool) {
         self.facts.retain(|key, (fact, _)| match key {
-            Key::Bounds { old, .. } | Key::Find { old, .. } => *old != of_old,
+            Key::Bounds { old, .. } | Key::Find { old, .. } | Key::Gaps { old, .. } => *old != of_old,
             key => of_old || ring_of(key, fact).is_none_or(&stays),
         });
     }
@@ -194,10 +199,11 @@ impl Known {
         self.holds(Key::Differ(a.min(b), a.max(b))) || self.is_younger(a, b) || self.is_younger(b, a)
     }
 
-    /// Whether `a` was created when `b` was a vertex already.
+    /// Whether `a` was created when `b` was a vertex, or null, already.
     fn is_younger(&self, a: Value, b: Value) -> bool {
-        let was = self.facts.get(&Key::NotNull(b)).map(|&(_, place)| place);
-        self.fresh(a).zip(was).is_some_and(|(a, was)| was < a.since)
+        let Some(a) = self.fresh(a) else { return false };
+        let was = |key| self.facts.get(&key).is_some_and(|&(_, place)| place < a.since);
+        was(Key::NotNull(b)) || was(Key::Beside(b))
     }
 
     fn fresh(&self, v: Value) -> Option<&Fresh> {

@@ -218,11 +218,13 @@ impl<'p> Translator<'_, 'p> {
         bad.into_iter().reduce(|a, b| self.b.ins().bor(a, b))
     }
 
-    /// Items by fours; after the last `v`, null, and then lanes that differ from every vertex and from each other.
+    /// Items by fours; after the last `v`, if it may be among them, null, and then lanes that differ from every vertex and
+    /// from each other.
     fn packed(&mut self, items: &[Value], v: Value) -> Vec<Value> {
         let padding = [0, !1, !2].map(|none| self.int32(none));
-        let all: Vec<Value> = items.iter().copied().chain([v]).chain(padding).collect();
-        let fours = items.len() / 4 + 1;
+        let itself = if items.iter().all(|&x| self.known.differ(x, v)) { None } else { Some(v) };
+        let all: Vec<Value> = items.iter().copied().chain(itself).chain(padding).collect();
+        let fours = (all.len() - padding.len()).div_ceil(4);
         (0..fours)
             .map(|k| {
                 let four = &all[4 * k..4 * k + 4];
@@ -235,6 +237,7 @@ impl<'p> Translator<'_, 'p> {
     /// [`Translator::not_a_ring`], four comparisons at a time.
     fn not_a_ring_of_lanes(&mut self, lanes: &[Value], items: &[Value]) -> Value {
         let mut pairs = self.pairs_of_lanes(lanes);
+        // There is a lane for null behind them, unless they fill all, or `v` does.
         let has_null = items.len() + 1 < 4 * lanes.len();
         if !has_null && !items.iter().all(|&x| self.known.holds(Key::NotNull(x))) {
             let zero = self.int32(0);

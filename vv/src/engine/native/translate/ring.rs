@@ -323,6 +323,9 @@ impl<'p> Translator<'_, 'p> {
 
     /// How many gaps, i32.
     pub(super) fn gaps(&mut self, v: Value, old: bool) -> Translated<Value> {
+        if let Some(Fact::Is(gaps)) = self.known.get(Key::Gaps { v, old }) {
+            return Ok(gaps);
+        }
         let gap = self.has_gap(v, old);
         let (done, results) = self.block_with(&[types::I32]);
         let count = self.b.create_block();
@@ -337,6 +340,7 @@ impl<'p> Translator<'_, 'p> {
         let zero = self.int32(0);
         self.jump_with(done, &[zero]);
         self.continue_in(done);
+        self.known.learn(Key::Gaps { v, old }, Fact::Is(results[0]));
         Ok(results[0])
     }
 }

@@ -8,8 +8,8 @@ use super::ring::Source;
 use super::{Loop, Orbit, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::engine::native::effects::{Effects, Node, each_in};
-use crate::ir::{Expr, ExprKind, From, LocalId, Ring, Stmt};
+use crate::engine::native::effects::{Effects, Node, each, each_in};
+use crate::ir::{Expr, ExprKind, From, LocalId, Place, Ring, Stmt, StmtKind, Type};
 use crate::source::Span;
 
 /// What a loop goes through: vertices from `first` to `end`, addresses.
@@ -24,6 +24,8 @@ struct Rounds {
     flags: MemFlagsData,
     /// Whether there may be gaps.
     gaps: bool,
+    /// Whether a round takes so little that the whole loop is over before anybody waits for it.
+    brief: bool,
     span: Span,
 }
 
@@ -117,7 +119,7 @@ impl<'p> Translator<'_, 'p> {
         self.forget(self.unit.facts.effects_of(body, &[], None));
         let exit = self.b.create_block();
         let flags = self.regions.members;
-        let rounds = Rounds { local, follower: None, first, end, begin: None, flags, gaps: true, span };
+        let rounds = Rounds { local, follower: None, first, end, begin: None, flags, gaps: true, brief: false, span };
         self.walk(&rounds, Walk::Set(depth), exit, body, |_, _| {})?;
         self.continue_in(exit);
         self.call(Symbol::SetWalkEnd, &[depth]);
@@ -173,7 +175,7 @@ impl<'p> Translator<'_, 'p> {
         let Bounds { start: first, flags, .. } = bounds;
         let end = self.b.ins().iadd(first, bytes);
         self.forget(effects);
-        let rounds = Rounds { local, follower, first, end, begin, flags, gaps, span };
+        let rounds = Rounds { local, follower, first, end, begin, flags, gaps, brief: only_computes(body), span };
         self.walk(&rounds, walk, exit, body, |t, sides| {
             if let Source::Of { v, .. } = source {
                 for &(x, _) in sides {
@@ -311,7 +313,7 @@ impl<'p> Translator<'_, 'p> {
         body: &'p [Stmt],
         learn: impl FnOnce(&mut Self, &[(Value, Value)]),
     ) -> Translated<()> {
-        let &Rounds { local, follower, first, end, begin, flags, gaps, span } = rounds;
+        let &Rounds { local, follower, first, end, begin, flags, gaps, brief, span } = rounds;
         let begin_at = begin.unwrap_or(first);
         let (round, at) = self.block_with(&[types::I64]);
         let at = at[0];
@@ -336,7 +338,9 @@ impl<'p> Translator<'_, 'p> {
             self.leave_if(skip, next);
         }
         learn(self, &sides);
-        self.poll(span);
+        if !brief {
+            self.poll(span);
+        }
         for (local, &(x, _)) in std::iter::once(local).chain(follower).zip(&sides) {
             self.define_local(local, Val::One(x))?;
         }
@@ -388,6 +392,26 @@ impl<'p> Translator<'_, 'p> {
             self.known.forget_rings(true);
         }
     }
+}
+
+/// Whether statements only compute, without loops, and look for nothing in rings.
+fn only_computes(body: &[Stmt]) -> bool {
+    let mut only = true;
+    each(body, &mut |node| {
+        only &= match node {
+            Node::Stmt(s) => {
+                use StmtKind::{Block, Break, Continue, Declare, Expr, If};
+                matches!(s.kind, Block(_) | Break | Continue | Declare { .. } | Expr(_) | If { .. })
+            }
+            Node::Expr(e) => {
+                let is_value = !matches!(e.ty, Type::Mesh | Type::Ring | Type::Void);
+                is_value && !matches!(e.kind, ExprKind::Call(..) | ExprKind::Create)
+            }
+            Node::Place(place) => !matches!(place, Place::EdgeProperty { .. }),
+            Node::Ring(_) => false,
+        };
+    });
+    only
 }
 
 /// Whether a condition is cheap to have twice.
