@@ -4,6 +4,7 @@
 //! carries them out. A new command is a variant here, a line in [`Command::describe`], a place in [`MENUS`], and its
 //! effect there.
 
+mod also;
 mod choosing;
 mod inspecting;
 mod matching;
@@ -27,7 +28,7 @@ use crate::scene::{Style, Surface};
 use crate::session::{Purpose, Session};
 
 pub use inspecting::Inspect;
-pub use matching::{Match, find};
+pub use matching::{Match, find, find_also};
 pub use menus::{MENUS, Menu, outer, with_keys};
 pub use pair::PairAction;
 pub use view::{Toward, ViewAction, of_hands};

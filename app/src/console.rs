@@ -89,6 +89,16 @@ impl Console {
         result
     }
 
+    /// The generation that printed line `row` of those up to `generation`.
+    #[must_use]
+    pub fn generation_of(&self, generation: u64, row: usize) -> Option<u64> {
+        let mut before = 0;
+        self.generations.range(..=generation).find_map(|(&printed_in, lines)| {
+            before += lines.len();
+            (row < before).then_some(printed_in)
+        })
+    }
+
     /// How many lines were forgotten because there were too many.
     #[must_use]
     pub fn dropped(&self) -> u64 {
@@ -122,6 +132,10 @@ mod tests {
         console.append(2, ["two".to_owned()], 0);
         assert_eq!(all(&console, 1), ["start", "one", "uno"]);
         assert_eq!(console.lines(2, 1..3), ["one", "uno"]);
+        assert_eq!(
+            [0, 1, 2, 3, 4].map(|row| console.generation_of(2, row)),
+            [Some(0), Some(1), Some(1), Some(2), None]
+        );
         console.begin(1);
         assert_eq!(all(&console, 9), ["start"]);
     }

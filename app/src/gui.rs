@@ -16,6 +16,7 @@
 
 mod cheat_sheet;
 mod clicks;
+mod context;
 mod dialogs;
 mod display;
 mod drop;
@@ -31,6 +32,7 @@ mod legend;
 mod marks;
 mod mask;
 mod menu;
+mod menu_keys;
 mod messages;
 mod overlay;
 mod pair;
@@ -38,6 +40,7 @@ mod palette;
 mod parameters;
 mod picture;
 mod preferences;
+mod printed;
 mod reference;
 mod render_options;
 mod ring;
@@ -403,6 +406,7 @@ impl eframe::App for App {
         let _span = trace::span("window: panels and picture");
         let mut commands = Vec::new();
         self.keep_focus(ui.ctx());
+        menu_keys::walk(ui.ctx());
         self.editors.current_mut().lead_on(ui.ctx());
         if self.session.dialog.is_none() {
             keys::take(ui.ctx(), &self.session, self.editors.current().takes_escape(ui.ctx()), &mut commands);

@@ -41,6 +41,11 @@ pub enum Inspect {
     /// No walk any more.
     EndWalk,
 
+    /// The distance from this vertex is measured to the one that is clicked next.
+    MeasureFrom(Vertex),
+    /// The corners of this have their names in the picture; or no more.
+    Name(Item),
+
     /// The ring of the generation before in the picture, or no more.
     OldRing,
     /// The list of what is wrong with the mesh, and its marks in the picture.
@@ -80,6 +85,8 @@ impl Inspect {
             | Self::SelectNumbers(_)
             | Self::Point(_)
             | Self::PointOld(_)
+            | Self::MeasureFrom(_)
+            | Self::Name(_)
             | Self::Walk(_) => ("", "", &[]),
         };
         Description { label, tooltip, shortcuts }

@@ -32,6 +32,22 @@ pub fn find(typed: &str, text: &str) -> Option<Match> {
     Some(result)
 }
 
+/// Matches what was typed against other words for a text: each typed word must begin one of them, or one of the text itself.
+/// Worth less than the same letters in the text, and more than letters scattered over it.
+#[must_use]
+pub fn find_also(typed: &str, text: &str, also: &str) -> Option<Match> {
+    const LESS: i32 = 4 * 64;
+    let known = |words: &str, word: &str| words.to_lowercase().split_whitespace().any(|known| known.starts_with(word));
+    let typed = typed.to_lowercase();
+    let mut words = typed.split_whitespace().peekable();
+    words.peek()?;
+    let fits = words.all(|word| known(also, word) || known(text, word));
+    // Letters at the beginning of words.
+    let begun = |word: &str| WORD_START + CONSECUTIVE * (word.chars().count() as i32 - 1);
+    let score = typed.split_whitespace().map(begun).sum::<i32>() * 64 - LESS;
+    fits.then_some(Match { score, at: Vec::new() })
+}
+
 fn lower(c: char) -> char {
     c.to_lowercase().next().unwrap_or(c)
 }
@@ -111,6 +127,16 @@ mod tests {
         assert_eq!(find("stx", "Step"), None);
         assert_eq!(find("pets", "Step"), None);
         assert_eq!(find("", "Step").map(|m| m.at), Some(vec![]));
+    }
+
+    #[test]
+    fn other_words_are_known_by_their_beginnings_and_are_worth_less() {
+        let score = |typed| find_also(typed, "Reflection lines", "zebra stripes").map(|m| m.score);
+        assert_eq!([score("ebra"), score(""), score("zebra x")], [None; 3]);
+        assert!(score("zeb").is_some() && score("Zebra lines").is_some());
+        let scattered = find("zebra", "zone of the edge, broader and").unwrap().score;
+        let direct = find("zebra", "Zebra of some other kind").unwrap().score;
+        assert!(scattered < score("zebra").unwrap() && score("zebra").unwrap() < direct);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use super::clicks;
-use crate::command::{Command, MENUS, find, of_hands};
+use crate::command::{Command, MENUS, find, find_also, of_hands};
 use crate::navigation::Preset;
 use crate::session::{Dialog, Session};
 
@@ -51,8 +51,11 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
 
 struct Section {
     title: &'static str,
-    rows: Vec<(String, String)>,
+    rows: Vec<Row>,
 }
+
+/// Keys, what they do, and other words for that.
+type Row = (String, String, &'static str);
 
 fn sections(ui: &Ui, preset: Preset, query: &str) -> Vec<Section> {
     let mut sections: Vec<Section> = MENUS
@@ -62,24 +65,32 @@ fn sections(ui: &Ui, preset: Preset, query: &str) -> Vec<Section> {
             let rows = commands.filter_map(|command| {
                 let description = command.describe();
                 let keys: Vec<String> = description.shortcuts.iter().map(|s| super::widgets::keys(ui, s)).collect();
-                (!keys.is_empty()).then(|| (keys.join("  or  "), description.label.trim_end_matches('…').to_owned()))
+                let label = description.label.trim_end_matches('…').to_owned();
+                (!keys.is_empty()).then(|| (keys.join("  or  "), label, command.also()))
             });
             Section { title: menu.title, rows: rows.collect() }
         })
         .collect();
-    let fixed = |rows: &[(&str, &str)]| rows.iter().map(|&(a, b)| (a.to_owned(), b.to_owned())).collect::<Vec<_>>();
+    let fixed = |rows: &[(&str, &str)]| -> Vec<Row> {
+        rows.iter().map(|&(keys, what)| (keys.to_owned(), what.to_owned(), "")).collect()
+    };
+    if let Some(help) = sections.iter_mut().find(|s| s.title == "Help") {
+        help.rows.extend(fixed(super::menu_keys::KEYS));
+    }
     if let Some(run) = sections.iter_mut().find(|s| s.title == "Run") {
         run.rows.extend(fixed(if preset == Preset::Blender { &[] } else { MORE }));
     }
     let of_hands = of_hands(preset).iter().map(|(keys, command)| {
         let label = command.describe().label.trim_end_matches('…');
-        (ui.ctx().format_shortcut(keys), label.to_owned())
+        (ui.ctx().format_shortcut(keys), label.to_owned(), command.also())
     });
     sections.push(Section { title: "Digits and keypad", rows: of_hands.collect() });
-    let hands = preset.explained().into_iter().map(|(how, what)| (how, what.to_owned()));
+    let hands = preset.explained().into_iter().map(|(how, what)| (how, what.to_owned(), ""));
     sections.push(Section { title: "In the picture", rows: hands.chain(fixed(clicks::HANDS)).collect() });
     for section in &mut sections {
-        section.rows.retain(|(keys, label)| find(query, &format!("{label} {keys}")).is_some());
+        section.rows.retain(|(keys, label, also)| {
+            find(query, &format!("{label} {keys}")).is_some() || find_also(query, label, also).is_some()
+        });
     }
     sections.retain(|section| !section.rows.is_empty());
     sections
@@ -105,7 +116,7 @@ fn show_section(ui: &mut Ui, section: &Section) {
     ui.add_space(2.0);
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();
-    for (keys, label) in &section.rows {
+    for (keys, label, _) in &section.rows {
         let long = |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE).size().x;
         let (name, wanted) = (long(label), long(keys) + 12.0);
         let room = width - name - wanted - 28.0;

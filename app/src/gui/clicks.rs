@@ -1,6 +1,7 @@
 //! What a click in the picture means, in one table; dragging is no click.
 
 use eframe::egui::{Modifiers, PointerButton, Pos2, Response, Ui};
+use vv::mesh::Vertex;
 
 use super::overlay::Overlay;
 use crate::command::{Command, Inspect};
@@ -34,7 +35,7 @@ pub const HANDS: &[(&str, &str)] = &[
     ("Shift + click", "select more: two vertices are a distance, three an angle"),
     ("Ctrl + click", "walk around the face from this corner"),
     ("Esc", "select nothing"),
-    ("right click", "what can be done here: also in the program, on messages, on the time line"),
+    ("right click", "what can be done with the vertex, edge or face; also in the program, in lists, on the time line"),
 ];
 
 /// Takes clicks and the place where the pointer rests.
@@ -48,7 +49,7 @@ pub fn take(
     commands: &mut Vec<Command>,
 ) {
     let opaque = session.document.style.faces;
-    let pick = |at: Pos2| frame.scene.pick(&Pointer { ray: overlay.ray(at), spread, opaque, cut: overlay.cut() });
+    let pick = |at: Pos2| under(overlay, frame, at, spread, opaque);
     if let Some(at) = response.hover_pos()
         && !response.dragged()
         && let Some(picked) = pick(at)
@@ -64,7 +65,11 @@ pub fn take(
     let Some(&(_, click)) = CLICKS.iter().find(|(modifiers, _)| held.contains(*modifiers)) else { return };
     let picked = pick(at);
     let wish = match (click, picked.as_ref()) {
-        (Click::Corner, Some(picked)) => corner(frame, picked),
+        // The nearest vertex will do.
+        (Click::Select, Some(picked)) if session.inspection.measuring => {
+            picked.vertex.map(|near| Inspect::Toggle(Item::Vertex(near.what)))
+        }
+        (Click::Corner, Some(picked)) => corner(frame, picked).map(Inspect::Walk),
         (Click::Select, Some(picked)) => item(frame, picked).map(Inspect::Select),
         (Click::Add, Some(picked)) => item(frame, picked).map(Inspect::Toggle),
         // Where nothing can be found yet, nothing is lost either.
@@ -74,8 +79,13 @@ pub fn take(
     commands.extend(wish.map(Command::Inspect));
 }
 
+/// What lies under a place of the window; faces hide what is behind them if they are `opaque`.
+pub fn under(overlay: &Overlay<'_>, frame: &Frame, at: Pos2, spread: f64, opaque: bool) -> Option<Picked> {
+    frame.scene.pick(&Pointer { ray: overlay.ray(at), spread, opaque, cut: overlay.cut() })
+}
+
 /// Whether its neighbours are far enough away that the pointer is not always beside some vertex.
-fn stands_out(overlay: &Overlay<'_>, frame: &Frame, vertex: vv::mesh::Vertex) -> bool {
+fn stands_out(overlay: &Overlay<'_>, frame: &Frame, vertex: Vertex) -> bool {
     let seen = |v| overlay.see(frame.mesh.position(v)).map(|spot| spot.at);
     match frame.mesh.ring(vertex).any() {
         Some(neighbour) => seen(vertex).zip(seen(neighbour)).is_none_or(|(a, b)| a.distance(b) > 2.5 * NEAR),
@@ -84,7 +94,7 @@ fn stands_out(overlay: &Overlay<'_>, frame: &Frame, vertex: vv::mesh::Vertex) ->
 }
 
 /// The vertex that is near, else the edge, else the face.
-fn item(frame: &Frame, picked: &Picked) -> Option<Item> {
+pub fn item(frame: &Frame, picked: &Picked) -> Option<Item> {
     let near = |distance: f64| distance <= 1.0;
     if let Some(vertex) = picked.vertex.filter(|v| near(v.distance)) {
         return Some(Item::Vertex(vertex.what));
@@ -98,24 +108,24 @@ fn item(frame: &Frame, picked: &Picked) -> Option<Item> {
     }
 }
 
-/// The walk with the face under the pointer on its right, away from the corner that is nearest.
-fn corner(frame: &Frame, picked: &Picked) -> Option<Inspect> {
+/// The first edge of the walk with the face under the pointer on its right, away from the corner that is nearest.
+pub fn corner(frame: &Frame, picked: &Picked) -> Option<[Vertex; 2]> {
     let &[p, q, ..] = frame.faces.get(picked.face?) else { return None };
     let corners = face_left_of(&frame.mesh, [p, q])?;
     let distance = |i: &usize| frame.mesh.position(corners[*i]).distance_squared(picked.point);
     let nearest = (0..corners.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let before = if nearest == 0 { corners.len() - 1 } else { nearest - 1 };
-    Some(Inspect::Walk([corners[nearest], corners[before]]))
+    Some([corners[nearest], corners[before]])
 }
 
 /// Says that the pointer rests on a vertex, wherever that is shown.
-pub fn point_at(ui: &Ui, vertex: vv::mesh::Vertex) {
+pub fn point_at(ui: &Ui, vertex: Vertex) {
     ui.ctx().data_mut(|data| data.insert_temp(pointed_id(), Some(vertex)));
 }
 
 /// What the pointer rested on in this pass, if that has changed.
 pub fn take_pointed(ctx: &eframe::egui::Context, session: &Session, commands: &mut Vec<Command>) {
-    let pointed = ctx.data_mut(|data| data.remove_temp::<Option<vv::mesh::Vertex>>(pointed_id())).flatten();
+    let pointed = ctx.data_mut(|data| data.remove_temp::<Option<Vertex>>(pointed_id())).flatten();
     if pointed != session.inspection.pointed {
         commands.push(Command::Inspect(Inspect::Point(pointed)));
     }

@@ -13,7 +13,9 @@ const WALK: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::Perio
 /// Takes the keys that mean a command. Those without Ctrl mean themselves while text is being typed; `escape_is_taken` if
 /// Escape closes something.
 pub fn take(ctx: &Context, session: &Session, escape_is_taken: bool, commands: &mut Vec<Command>) {
-    let typing = ctx.egui_wants_keyboard_input();
+    // A menu that is open is walked by keys, and closed by Escape.
+    let in_menu = super::menu_keys::have_keys(ctx);
+    let (typing, escape_is_taken) = (ctx.egui_wants_keyboard_input() || in_menu, escape_is_taken || in_menu);
     for (shortcut, command) in command::of_hands(session.navigation.preset) {
         // A walk that is watched has the point.
         let walks = *shortcut == WALK && session.inspection.walk.is_some();

@@ -53,6 +53,18 @@ pub fn show(ui: &Ui, overlay: &Overlay<'_>, session: &Session, frame: &Frame) {
     for &item in &selected {
         chosen(overlay, mesh, item);
     }
+    for item in session.named() {
+        for &v in item.corners(mesh).iter().take(ORDERED) {
+            overlay.disc(mesh.position(v), 2.5, inks.pointed);
+            overlay.label(mesh.position(v), vec2(0.0, -17.0), &v.to_string(), ui.visuals().text_color());
+        }
+    }
+    if let (true, &[Item::Vertex(from)]) = (inspection.measuring, &selected[..]) {
+        if let Some(to) = inspection.pointed.filter(|&to| to != from && mesh.set.contains(to)) {
+            measures(overlay, mesh, &[Item::Vertex(from), Item::Vertex(to)], session.preferences.unit);
+        }
+        overlay.caption(&format!("click a vertex: its distance from {from}; Esc ends"), inks.measure);
+    }
     if let Some(walking) = &inspection.walk {
         walk(overlay, mesh, walking, &selected);
     }

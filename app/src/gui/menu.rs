@@ -1,42 +1,89 @@
 //! The menu bar.
 
-use eframe::egui::{MenuBar, Ui};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{Color32, Key, MenuBar, Stroke, TextFormat, TextStyle, Ui};
 
-use super::views;
 use super::widgets::menu_item;
+use super::{menu_keys, views};
 use crate::command::{Command, MENUS, Menu, outer};
 use crate::document::MeshSource;
 use crate::gallery::{EXHIBITS, Exhibit, Group};
 use crate::library;
 use crate::session::Session;
 
+/// Letters that open a menu with Alt: those of its title at these places.
+const LETTERS: [(&str, usize, Key); 11] = [
+    ("File", 0, Key::F),
+    ("Examples", 1, Key::X),
+    ("Meshes", 0, Key::M),
+    ("Edit", 0, Key::E),
+    ("Run", 0, Key::R),
+    ("View", 0, Key::V),
+    ("Subdivide", 0, Key::S),
+    ("Camera", 0, Key::C),
+    ("Inspect", 0, Key::I),
+    ("Show", 2, Key::O),
+    ("Help", 0, Key::H),
+];
+
 /// Shows it.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    menu_keys::open(ui, &LETTERS.map(|(.., key)| key));
+    let mut buttons = Vec::new();
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS.iter().filter(|menu| outer(menu.title).is_none()) {
-            ui.menu_button(menu.title, |ui| {
+            let title = title(ui, menu.title);
+            let button = ui.menu_button(title, |ui| {
                 ui.set_min_width(210.0);
                 entries(ui, session, commands, menu);
                 if menu.title == "File" && !session.recent().is_empty() {
                     ui.separator();
-                    ui.menu_button("Open recent", |ui| recent(ui, session, commands));
+                    inner(ui, "Open recent", |ui| recent(ui, session, commands));
                 }
                 if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
                     ui.separator();
                 }
-                for inner in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
-                    ui.menu_button(inner.title, |ui| entries(ui, session, commands, inner));
+                for more in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
+                    inner(ui, more.title, |ui| entries(ui, session, commands, more));
                 }
                 if menu.title == "Camera" {
-                    ui.menu_button("Saved viewpoints", |ui| views::show(ui, session, commands));
+                    inner(ui, "Saved viewpoints", |ui| views::show(ui, session, commands));
                 }
             });
+            buttons.push(button.response);
             if menu.title == "File" {
-                ui.menu_button("Examples", |ui| examples(ui, session, commands));
-                ui.menu_button("Meshes", |ui| meshes(ui, session, commands));
+                let name = self::title(ui, "Examples");
+                buttons.push(ui.menu_button(name, |ui| examples(ui, session, commands)).response);
+                let name = self::title(ui, "Meshes");
+                buttons.push(ui.menu_button(name, |ui| meshes(ui, session, commands)).response);
             }
         }
     });
+    menu_keys::remember(ui, &buttons);
+}
+
+/// A title, its letter underlined while Alt is held.
+fn title(ui: &Ui, text: &str) -> LayoutJob {
+    let font = TextStyle::Button.resolve(ui.style());
+    let plain = TextFormat::simple(font, Color32::PLACEHOLDER);
+    let letter = LETTERS.iter().find(|(title, ..)| *title == text).map(|(_, at, _)| *at);
+    let mut job = LayoutJob::default();
+    match letter.filter(|_| ui.input(|i| i.modifiers.alt)) {
+        Some(at) => {
+            let line = Stroke::new(1.0, ui.visuals().text_color());
+            job.append(&text[..at], 0.0, plain.clone());
+            job.append(&text[at..=at], 0.0, TextFormat { underline: line, ..plain.clone() });
+            job.append(&text[at + 1..], 0.0, plain);
+        }
+        None => job.append(text, 0.0, plain),
+    }
+    job
+}
+
+/// A menu in a menu.
+fn inner(ui: &mut Ui, title: &str, show: impl FnOnce(&mut Ui)) {
+    let button = ui.menu_button(title, show);
+    menu_keys::entry(ui, &button.response);
 }
 
 fn entries(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, menu: &Menu) {
@@ -55,6 +102,7 @@ fn recent(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.set_min_width(240.0);
     for path in session.recent() {
         let response = ui.button(crate::document::file_name(path));
+        menu_keys::entry(ui, &response);
         if response.on_hover_text(path.display().to_string()).clicked() {
             commands.push(Command::Open(path.clone()));
             ui.close();
@@ -88,7 +136,9 @@ fn examples(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 
 fn example(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, exhibit: &Exhibit) {
     let open = session.document.program.path.is_none() && session.document.program.name == exhibit.program;
-    if ui.selectable_label(open, exhibit.program).on_hover_text(exhibit.headline()).clicked() {
+    let response = ui.selectable_label(open, exhibit.program);
+    menu_keys::entry(ui, &response);
+    if response.on_hover_text(exhibit.headline()).clicked() {
         commands.push(Command::OpenExample(exhibit.program));
         ui.close();
     }
@@ -98,7 +148,9 @@ fn meshes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.set_min_width(180.0);
     for mesh in library::MESHES {
         let source = MeshSource::BuiltIn(mesh.name.to_owned());
-        if ui.selectable_label(session.document.mesh == source, mesh.name).clicked() {
+        let response = ui.selectable_label(session.document.mesh == source, mesh.name);
+        menu_keys::entry(ui, &response);
+        if response.clicked() {
             commands.push(Command::UseMesh(source));
             ui.close();
         }
@@ -106,6 +158,7 @@ fn meshes(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.separator();
     let none = session.document.mesh == MeshSource::Empty;
     let response = ui.selectable_label(none, "No mesh").on_hover_text("for programs that build their own");
+    menu_keys::entry(ui, &response);
     if response.clicked() {
         commands.push(Command::UseMesh(MeshSource::Empty));
         ui.close();

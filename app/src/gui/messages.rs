@@ -4,16 +4,18 @@ use eframe::egui::{self, Align, Label, Layout, RichText, ScrollArea, Sense, Text
 use vv::diagnostic::Severity;
 
 use super::ring::text_with_vertices;
-use super::widgets::{grouped, tab};
-use super::{findings, theme};
+use super::widgets::{grouped, menu_entry, tab};
+use super::{findings, printed, theme};
 use crate::command::{Command, Inspect};
 use crate::inspect::findings::Findings;
 use crate::session::{Problem, Session};
 
-/// The panel's own state: which half is shown.
+/// The panel's own state: which part is shown.
 #[derive(Default)]
 pub struct Messages {
     console: bool,
+    printed: printed::Printed,
+    findings: findings::List,
     /// Errors at the last look, to bring them to the front when there are new ones.
     errors: usize,
 }
@@ -61,18 +63,21 @@ impl Messages {
                         if self.console { (lines, "copy all lines") } else { (all, "copy all messages") };
                     if !listing && count > 0 && ui.small_button("Copy").on_hover_text(what).clicked() {
                         ui.ctx().copy_text(match self.console {
-                            true => session.console().lines(generation, 0..lines).join("\n"),
+                            true => printed::all(session, generation),
                             false => all_texts(session),
                         });
+                    }
+                    if self.console && !listing && count > 0 {
+                        self.printed.field(ui);
                     }
                 });
             })
         });
         ui.add_space(2.0);
         if session.inspection.listing {
-            findings::show(ui, session, commands);
+            self.findings.show(ui, session, commands);
         } else if self.console {
-            console(ui, session, generation, lines);
+            self.printed.show(ui, session, generation, commands);
         } else {
             list(ui, session, commands);
         }
@@ -104,15 +109,6 @@ fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     });
 }
 
-/// An entry of a menu that is open; whether it was chosen.
-fn item(ui: &mut Ui, enabled: bool, label: &str, tooltip: &str) -> bool {
-    let clicked = ui.add_enabled(enabled, egui::Button::new(label)).on_hover_text(tooltip).clicked();
-    if clicked {
-        ui.close();
-    }
-    clicked
-}
-
 /// All messages as text.
 fn all_texts(session: &Session) -> String {
     let texts: Vec<String> = session.problems().iter().map(Problem::to_text).collect();
@@ -139,16 +135,16 @@ fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<C
     response.context_menu(|ui| {
         ui.set_min_width(180.0);
         let own = problem.place.as_ref().filter(|place| place.own);
-        if item(ui, own.is_some(), "Go to place", "show it in the program")
+        if menu_entry(ui, own.is_some(), "Go to place", "show it in the program")
             && let Some(place) = own
         {
             commands.push(Command::Reveal(place.range.clone()));
         }
         ui.separator();
-        if item(ui, true, "Copy message", "with its place, evidence and hints") {
+        if menu_entry(ui, true, "Copy message", "with its place, evidence and hints") {
             ui.ctx().copy_text(problem.to_text());
         }
-        if item(ui, true, "Copy all messages", "of the program, the mesh and the run") {
+        if menu_entry(ui, true, "Copy all messages", "of the program, the mesh and the run") {
             ui.ctx().copy_text(all_texts(session));
         }
     });
@@ -198,30 +194,4 @@ fn vertices(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Ve
         text += &format!(" and {} more", all.len() - SHOWN);
     }
     text_with_vertices(ui, session, commands, &text, problem.generation);
-}
-
-fn console(ui: &mut Ui, session: &Session, generation: u64, lines: usize) {
-    let height = ui.text_style_height(&TextStyle::Monospace);
-    ui.spacing_mut().item_spacing.y = 1.0;
-    let dropped = session.console().dropped();
-    if lines == 0 {
-        ui.weak("what the program prints appears here");
-        ui.take_available_space(); // the panel keeps its height
-        return;
-    }
-    ScrollArea::both().id_salt("console").auto_shrink(Vec2b::FALSE).stick_to_bottom(true).show_rows(
-        ui,
-        height,
-        lines,
-        |ui, rows| {
-            if rows.start == 0 && dropped > 0 {
-                ui.weak(format!("{dropped} earlier lines are forgotten"));
-            }
-            // Taken out at once, so that the worker waits for no painting.
-            let lines = session.console().lines(generation, rows);
-            for line in lines {
-                ui.add(Label::new(RichText::new(line).monospace()).extend());
-            }
-        },
-    );
 }

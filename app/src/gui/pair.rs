@@ -85,12 +85,8 @@ fn side(
 fn title(ui: &mut Ui, session: &Session, has_keys: bool, commands: &mut Vec<Command>) {
     let document = &session.document;
     let mark = if document.program.is_modified() { "● " } else { "" };
-    let text = format!(
-        "{mark}{} · {} · generation {}",
-        document.program.name,
-        document.mesh.name(),
-        session.shown_generation()
-    );
+    let names = [format!("{mark}{}", document.program.name), document.mesh.name()];
+    let generation = session.shown_generation();
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let close = Command::Pair(PairAction::Close);
@@ -101,8 +97,13 @@ fn title(ui: &mut Ui, session: &Session, has_keys: bool, commands: &mut Vec<Comm
                 commands.push(close);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let hover = text.clone();
-                let text = if has_keys { RichText::new(&text).strong() } else { RichText::new(&text).weak() };
+                let hover = format!("{} · {} · generation {generation}", names[0], names[1]);
+                let font = egui::TextStyle::Body.resolve(ui.style());
+                let wide = |text: &str| {
+                    ui.painter().layout_no_wrap(text.to_owned(), font.clone(), egui::Color32::WHITE).size().x
+                };
+                let text = fitted(&names, generation, ui.available_width(), wide);
+                let text = if has_keys { RichText::new(text).strong() } else { RichText::new(text).weak() };
                 let label = ui.add(egui::Label::new(text).truncate().selectable(false).sense(Sense::click()));
                 let label = label.on_hover_text(hover);
                 label.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, label_name(session, has_keys)));
@@ -115,4 +116,61 @@ fn label_name(session: &Session, has_keys: bool) -> String {
     let document = &session.document;
     let keys = if has_keys { ", has the keys" } else { "" };
     format!("{} on {}, generation {}{keys}", document.program.name, document.mesh.name(), session.shown_generation())
+}
+
+/// Names and generation in a line that is not wider than `room`: what does not fit is left out in the middle of the longer
+/// name, never in the number.
+fn fitted(names: &[String; 2], generation: u64, room: f32, wide: impl Fn(&str) -> f32) -> String {
+    /// Characters that a name keeps.
+    const LEAST: usize = 5;
+    let number = generation.to_string();
+    let mut shown = names.clone();
+    for before in ["generation ", "gen. ", ""] {
+        let line = |shown: &[String; 2]| format!("{} · {} · {before}{number}", shown[0], shown[1]);
+        shown = names.clone();
+        let mut kept = names.each_ref().map(|name| name.chars().count());
+        loop {
+            let text = line(&shown);
+            if wide(&text) <= room {
+                return text;
+            }
+            let longer = usize::from(wide(&shown[1]) > wide(&shown[0]));
+            let Some(which) = [longer, 1 - longer].into_iter().find(|&i| kept[i] > LEAST) else { break };
+            kept[which] -= 1;
+            shown[which] = shortened(&names[which], kept[which]);
+        }
+    }
+    let short = format!("{} · {number}", shown[0]);
+    if wide(&short) <= room { short } else { number }
+}
+
+/// A name with so many characters, one of which stands for those left out in its middle.
+fn shortened(name: &str, count: usize) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    if letters.len() <= count {
+        return name.to_owned();
+    }
+    let behind = count.saturating_sub(1) / 2;
+    let before = count.saturating_sub(1) - behind;
+    letters[..before].iter().chain(&['…']).chain(&letters[letters.len() - behind..]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_loses_the_middle_of_its_names_and_never_its_number() {
+        let names = ["catmull-clark.vv".to_owned(), "tetrahedron.obj".to_owned()];
+        let check = |room: f32, expected: &str| {
+            assert_eq!(fitted(&names, 123, room, |text| text.chars().count() as f32), expected, "{room}");
+        };
+        check(60.0, "catmull-clark.vv · tetrahedron.obj · generation 123");
+        check(45.0, "catmul…ark.vv · tetrah…on.obj · generation 123");
+        check(32.0, "ca…vv · t…bj · generation 123".replace("t…bj", "te…bj").as_str());
+        check(24.0, "ca…vv · te…bj · gen. 123");
+        check(19.0, "ca…vv · te…bj · 123");
+        check(12.0, "ca…vv · 123");
+        check(3.0, "123");
+    }
 }

@@ -6,7 +6,7 @@ use eframe::egui::{
     TextFormat, TextStyle, Ui, WidgetInfo, vec2,
 };
 
-use crate::command::{Command, MENUS, Match, find};
+use crate::command::{Command, MENUS, Match, find, find_also};
 use crate::document::MeshSource;
 use crate::gallery::EXHIBITS;
 use crate::library;
@@ -105,7 +105,19 @@ impl Keys {
 
 /// What fits, best first; of equals, and while nothing is typed, in the order of the menus.
 fn found(session: &Session, query: &str) -> Vec<(Match, Entry)> {
-    let fits = |entry: Entry| Some((find(query, &entry.label)?, entry));
+    let fits = |mut entry: Entry| {
+        let also = entry.command.also();
+        let (called, known) = (find(query, &entry.label), find_also(query, &entry.label, also));
+        // Letters scattered over a name are meant less than another word for it.
+        if known.as_ref().map(|m| m.score) > called.as_ref().map(|m| m.score) {
+            let typed = query.to_lowercase();
+            let typed: Vec<&str> = typed.split_whitespace().collect();
+            let meant = also.split(' ').filter(|word| typed.iter().any(|typed| word.starts_with(typed)));
+            entry.tooltip = format!("{}: {}", meant.collect::<Vec<_>>().join(", "), entry.tooltip);
+            return Some((known?, entry));
+        }
+        Some((called?, entry))
+    };
     let mut found: Vec<_> = entries(session).into_iter().filter_map(fits).collect();
     if !query.trim().is_empty() {
         found.sort_by_key(|(matched, _)| std::cmp::Reverse(matched.score));

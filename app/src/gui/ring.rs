@@ -375,7 +375,7 @@ pub fn text_with_vertices(
 }
 
 /// The text in pieces: names of vertices, and what stands between.
-fn parts(text: &str) -> Vec<(&str, Option<Vertex>)> {
+pub fn parts(text: &str) -> Vec<(&str, Option<Vertex>)> {
     let mut parts = Vec::new();
     let (mut begin, mut at) = (0, 0);
     while at < text.len() {

@@ -6,7 +6,8 @@ use eframe::egui::{
 use vv::mesh::{Mesh, Value, Vertex};
 
 use super::ring::{self, vertex_link};
-use super::widgets::{Icon, button, heading, icon_button};
+use super::widgets::{Icon, button, heading, icon_button, menu_entry};
+use crate::annotate::{Label, Quantity};
 use crate::command::{Command, Inspect};
 use crate::inspect::measure::{FaceMeasure, angle, dihedral, short};
 use crate::inspect::selection::Item;
@@ -66,12 +67,44 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
+    row_with(ui, name, value, |_| {});
+}
+
+/// The same with more in its menu than to copy it.
+fn row_with(ui: &mut Ui, name: &str, value: impl Into<String>, more: impl FnOnce(&mut Ui)) {
     let label = ui.weak(name);
     let value = value.into();
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        ui.add(eframe::egui::Label::new(value).truncate()).labelled_by(label.id)
+    let response = ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.add(eframe::egui::Label::new(&value).truncate()).labelled_by(label.id)
+    });
+    response.inner.context_menu(|ui| {
+        ui.set_min_width(170.0);
+        if menu_entry(ui, true, "Copy value", &value) {
+            ui.ctx().copy_text(value.clone());
+        }
+        if menu_entry(ui, true, "Copy name and value", &format!("{name} {value}")) {
+            ui.ctx().copy_text(format!("{name} {value}"));
+        }
+        more(ui);
     });
     ui.end_row();
+}
+
+/// What the menu of a property's row offers for the whole mesh; and to go to the vertex that it names.
+fn of_property(ui: &mut Ui, session: &Session, name: &str, value: Option<Value>, commands: &mut Vec<Command>) {
+    ui.separator();
+    if let Some(Value::Vertex(Some(v))) = value {
+        let here = session.frame().is_some_and(|frame| frame.mesh.set.contains(v));
+        if menu_entry(ui, here, &format!("Fly to {v}"), "select this vertex and bring it close") {
+            commands.push(Command::Inspect(Inspect::Select(Item::Vertex(v))));
+            commands.push(Command::Inspect(Inspect::Fly));
+        }
+    } else if menu_entry(ui, true, "Colour by it", "colour the surface by this property") {
+        commands.push(Command::ColorBy(Quantity::Property(name.to_owned())));
+    }
+    if menu_entry(ui, true, "Label with it", "write at all vertices what this property is there") {
+        commands.push(Command::LabelBy(Label::Property(name.to_owned())));
+    }
 }
 
 fn table(ui: &mut Ui, name: &str, rows: impl FnOnce(&mut Ui)) {
@@ -105,8 +138,10 @@ fn vertex(ui: &mut Ui, session: &Session, frame: &Frame, v: Vertex, commands: &m
         row(ui, "Valence", format!("{}{gaps}", ring.valence()));
         row(ui, "pos", value(Value::Vec(mesh.position(v))));
         for (i, property) in mesh.vertex_properties().iter().enumerate() {
-            let text = mesh.vertex_value(i, v).map_or_else(String::new, value);
-            row(ui, &property.name, text);
+            let found = mesh.vertex_value(i, v);
+            row_with(ui, &property.name, found.map_or_else(String::new, value), |ui| {
+                of_property(ui, session, &property.name, found, commands);
+            });
         }
     });
     super::mask::show(ui, session, commands);

@@ -1,10 +1,10 @@
 //! The generations in a row: where we are, where we have been, what is kept.
 
 use eframe::egui::{
-    self, Align2, Button, ComboBox, CursorIcon, Key, Rect, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, ComboBox, CursorIcon, Key, Rect, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::widgets::{Icon, grouped, icon_button, seconds, sides, tooltip};
+use super::widgets::{Icon, grouped, icon_button, menu_entry, seconds, sides, tooltip};
 use crate::annotate::Quantity;
 use crate::command::Command;
 use crate::session::{Purpose, Session};
@@ -77,9 +77,8 @@ fn menu(ui: &mut Ui, session: &Session, generation: u64, commands: &mut Vec<Comm
             ui.separator();
         }
         let enabled = session.frame().is_some() && (i != 1 || generation > 0);
-        if ui.add_enabled(enabled, Button::new(label)).on_hover_text(tooltip).clicked() {
+        if menu_entry(ui, enabled, &label, tooltip) {
             commands.push(command);
-            ui.close();
         }
     }
 }

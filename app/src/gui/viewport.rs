@@ -13,9 +13,9 @@ use vv::diagnostic::Severity;
 
 use super::overlay::Overlay;
 use super::picture::{Picture, Wardrobe};
-use super::widgets::{grouped, menu_item, seconds};
-use super::{clicks, gizmo, labels, legend, marks, theme};
-use crate::command::{Command, Inspect, ViewAction};
+use super::widgets::{grouped, seconds};
+use super::{clicks, context, gizmo, labels, legend, marks, theme};
+use crate::command::{Command, ViewAction};
 use crate::render::{RenderError, Size};
 use crate::scene::{Style, Theme};
 use crate::session::{Session, Stale};
@@ -24,19 +24,12 @@ use crate::worker::Frame;
 
 use hands::Hands;
 
-/// What a right click offers.
-const MENU: &[&[Command]] = &[
-    &[Command::Step, Command::Back],
-    &[Command::Inspect(Inspect::Fly), Command::Inspect(Inspect::Clear)],
-    &[Command::Fit, Command::CopyImage, Command::SavePicture, Command::View(ViewAction::RenderOptions)],
-    &[Command::Faces, Command::Smooth, Command::Edges, Command::Vertices, Command::Control],
-];
-
 /// The panel's own state.
 pub struct Viewport {
     picture: Picture,
     hands: Hands,
     labels: labels::Labels,
+    context: context::Context,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
@@ -47,7 +40,13 @@ impl Viewport {
     /// If the driver refuses a pipeline.
     pub fn new(state: RenderState, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, RenderError> {
         let picture = Picture::new(state, Arc::clone(&wake))?;
-        Ok(Self { picture, hands: Hands::default(), labels: labels::Labels::default(), wake })
+        Ok(Self {
+            picture,
+            hands: Hands::default(),
+            labels: labels::Labels::default(),
+            context: context::Context::default(),
+            wake,
+        })
     }
 
     /// Shows it, called `name` for those who cannot see it. Takes [`Session::fit`].
@@ -79,17 +78,6 @@ impl Viewport {
             camera = moved;
             commands.push(Command::SetCamera(camera));
         }
-        response.context_menu(|ui| {
-            ui.set_min_width(200.0);
-            for (i, group) in MENU.iter().enumerate() {
-                if i > 0 {
-                    ui.separator();
-                }
-                for command in *group {
-                    menu_item(ui, session, commands, command.clone(), true);
-                }
-            }
-        });
         session.view = Some((size, style));
         let colors = session.colors();
         let dress = Wardrobe {
@@ -117,6 +105,7 @@ impl Viewport {
         let labels = &session.document.annotations.labels;
         self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         clicks::take(ui, &response, &inks, session, &frame, spread, commands);
+        self.context.show(&response, &inks, session, &frame, spread, commands);
         marks::show(ui, &inks, session, &frame);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
         legend::show(ui, rect, session, &frame, colors.as_ref(), pointer);

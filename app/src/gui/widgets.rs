@@ -148,6 +148,7 @@ pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, co
     text.append(description.label, space, TextFormat::simple(font, Color32::PLACEHOLDER));
     let button = Button::new(text).shortcut_text(keys);
     let response = ui.add_enabled(command.is_enabled(session), button).accessible_name(description.label);
+    super::menu_keys::entry(ui, &response);
     if on == Some(true) {
         let center = response.rect.left_center() + vec2(ui.spacing().button_padding.x + 6.0, 0.0);
         let points = [vec2(-4.5, 0.0), vec2(-1.5, 3.5), vec2(5.0, -4.0)].map(|d| center + d);
@@ -158,6 +159,17 @@ pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, co
         commands.push(command);
         ui.close();
     }
+}
+
+/// An entry of a menu that is no command of the tables; whether it was chosen.
+pub fn menu_entry(ui: &mut Ui, enabled: bool, label: &str, tooltip: &str) -> bool {
+    let response = ui.add_enabled(enabled, Button::new(label));
+    super::menu_keys::entry(ui, &response);
+    let clicked = response.on_hover_text(tooltip).clicked();
+    if clicked {
+        ui.close();
+    }
+    clicked
 }
 
 /// A command as a plain button.

@@ -47,6 +47,10 @@ pub struct Inspection {
     pub mask: bool,
     /// The vertex of the generation before that the pointer rests on, in a mask.
     pub pointed_old: Option<Vertex>,
+    /// Whether the next vertex that is clicked is measured to.
+    pub measuring: bool,
+    /// What has its names in the picture, selected or not.
+    pub named: Selection,
 }
 
 impl Default for Inspection {
@@ -61,6 +65,8 @@ impl Default for Inspection {
             fault: None,
             mask: false,
             pointed_old: None,
+            measuring: false,
+            named: Selection::default(),
         }
     }
 }
@@ -114,6 +120,13 @@ impl Session {
         }
     }
 
+    /// What of that which has its names in the picture the shown mesh has, by the names it has there.
+    #[must_use]
+    pub fn named(&self) -> Vec<Item> {
+        let Some(frame) = &self.frame else { return Vec::new() };
+        self.inspection.named.shown(&frame.mesh, frame.request.generation, &frame.lineage).0
+    }
+
     /// What a vertex of some generation is called in the mesh shown, if it lives there.
     #[must_use]
     pub fn shown_vertex(&self, v: Vertex, generation: u64) -> Option<Vertex> {
@@ -144,16 +157,24 @@ impl Session {
 
     pub(super) fn inspect(&mut self, wish: Inspect) {
         let generation = self.shown_generation();
+        let lineage = || self.frame.as_ref().map(|f| f.lineage.clone()).unwrap_or_default();
+        // It ends with whatever is done next, but for looking.
+        self.inspection.measuring &= matches!(wish, Inspect::Point(_) | Inspect::PointOld(_) | Inspect::Fly);
         match wish {
             Inspect::Select(item) => {
                 self.inspection.selection.set(item, generation);
                 self.inspection.walk = None;
             }
             Inspect::Toggle(item) => {
-                let lineage = self.frame.as_ref().map(|f| f.lineage.clone()).unwrap_or_default();
-                self.inspection.selection.toggle(item, generation, &lineage);
+                self.inspection.selection.toggle(item, generation, &lineage());
                 self.inspection.walk = None;
             }
+            Inspect::MeasureFrom(v) => {
+                self.inspection.selection.set(Item::Vertex(v), generation);
+                self.inspection.walk = None;
+                self.inspection.measuring = true;
+            }
+            Inspect::Name(item) => self.inspection.named.toggle(item, generation, &lineage()),
             Inspect::SelectNumbers(numbers) => self.select_numbers(&numbers),
             Inspect::Clear => {
                 self.inspection.selection.clear();

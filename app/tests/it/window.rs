@@ -7,6 +7,7 @@ mod gallery;
 mod inspecting;
 mod keeping;
 mod masks;
+mod menus;
 mod palette;
 mod paths;
 mod pictures;

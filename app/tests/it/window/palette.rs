@@ -45,6 +45,37 @@ fn the_palette_finds_examples_and_meshes_and_is_walked_by_arrows() {
 }
 
 #[test]
+fn the_palette_knows_other_words_for_commands() {
+    let mut window = octahedron();
+    for (typed, expected) in [
+        ("zebra", "Reflection lines"),
+        ("wireframe", "Faces"),
+        ("shading", "Render options"),
+        ("export", "Save mesh as…"),
+        ("export pdf", "Save picture as…"),
+        ("undo", "Undo"),
+        ("screenshot", "Save picture as…"),
+        ("subdivide", "Step"),
+        ("subdivide quads", "Catmull–Clark"),
+        ("reflect", "Reflection lines"),
+        ("normals", "Normals of faces"),
+        ("settings", "Preferences…"),
+        ("shortcuts", "Keys…"),
+        ("planarity", "Mesh problems"),
+    ] {
+        open_palette(&mut window);
+        type_into(&mut window, "Find a command", typed);
+        let is_chosen = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
+            node.toggled() == Some(egui::accesskit::Toggled::True) || node.is_selected() == Some(true)
+        };
+        let found = window.query_all_by(move |node| node.role() == Role::Button && is_chosen(node));
+        let found: Vec<String> = found.filter_map(|node| node.accesskit_node().label()).collect();
+        assert!(found.contains(&expected.to_owned()), "{typed}: {found:?}");
+        press(&mut window, Key::Escape);
+    }
+}
+
+#[test]
 fn what_makes_no_sense_now_is_not_carried_out() {
     let mut window = octahedron();
     open_palette(&mut window);
@@ -62,6 +93,9 @@ fn the_sheet_of_keys_is_searched() {
     type_into(&mut window, "Find a key", "wheel");
     assert!(window.query_by_label("Save mesh as").is_none());
     window.get_by_label("zoom to the pointer");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    type_into(&mut window, "Find a key", "wireframe");
+    assert_eq!(window.query_all_by_label("Faces").count(), 3, "a switch, a count, and the line of the sheet");
     press(&mut window, Key::Escape);
     assert!(window.state().session().dialog.is_none());
 }
