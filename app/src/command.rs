@@ -513,7 +513,7 @@ fn describe_color(quantity: &Quantity) -> Description {
         Quantity::Coordinate(0) => ("Colour by x", "show the first coordinate"),
         Quantity::Coordinate(1) => ("Colour by y", "show the second coordinate, the height"),
         Quantity::Coordinate(_) => ("Colour by z", "show the third coordinate"),
-        Quantity::Property(_) | Quantity::Color(_) => ("", ""),
+        Quantity::Since(_) | Quantity::Property(_) | Quantity::Color(_) => ("", ""),
     };
     Description { label, tooltip, shortcuts: &[] }
 }

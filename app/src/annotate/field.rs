@@ -99,7 +99,8 @@ impl Field {
                 Self { numbers: curvature(subject, Curvature::Mean, stop)?, kind: Kind::Diverging, ..plain }
             }
             Quantity::Birth => plain.births(subject),
-            Quantity::Change => plain.changes(subject)?,
+            Quantity::Change => plain.changes(subject, None)?,
+            Quantity::Since(generation) => plain.changes(subject, Some(*generation))?,
             Quantity::Coordinate(axis) => {
                 let axis = usize::from(*axis).min(2);
                 Self { numbers: mesh.positions().iter().map(|p| p[axis]).collect(), ..plain }
@@ -164,19 +165,35 @@ impl Field {
         Self { numbers, kind: Kind::Sequential { whole: true }, ..self }
     }
 
-    fn changes(self, subject: &Subject<'_>) -> Result<Self, NoField> {
-        let missing = |text: &str| NoField::Missing(text.to_owned());
-        if subject.generation == 0 {
-            return Err(missing("generation 0 has none before it"));
-        }
-        let Some(before) = subject.before else {
-            return Err(missing("the generation before is no longer kept"));
+    /// What has become of each vertex since a generation; since the one before, if none is given.
+    fn changes(self, subject: &Subject<'_>, since: Option<u64>) -> Result<Self, NoField> {
+        let missing = |text: String| NoField::Missing(text);
+        let generation = subject.generation;
+        let kept;
+        let (from, before) = match since {
+            None if generation == 0 => return Err(missing("generation 0 has none before it".to_owned())),
+            None => match subject.before {
+                Some(before) => (generation - 1, before),
+                None => return Err(missing("the generation before is no longer kept".to_owned())),
+            },
+            Some(from) if from == generation => {
+                return Err(missing("this is the generation that others are compared with".to_owned()));
+            }
+            Some(from) if from > generation => {
+                return Err(missing(format!("generation {from} comes after this one")));
+            }
+            Some(from) => match subject.lineage.mesh(from) {
+                Some(mesh) => {
+                    kept = mesh;
+                    (from, &kept)
+                }
+                None => return Err(missing(format!("generation {from} is not kept"))),
+            },
         };
         const NAMES: [(&str, [u8; 3]); 3] =
             [("stayed", CLASS_COLORS[3]), ("moved", CLASS_COLORS[4]), ("born", CLASS_COLORS[1])];
         let mut classes = NAMES.map(|(name, color)| Class { name: name.to_owned(), color, count: 0 });
-        let generation = subject.generation;
-        let class = |v: Vertex| match subject.lineage.carry(v, generation, generation - 1) {
+        let class = |v: Vertex| match subject.lineage.carry(v, generation, from) {
             None => 2,
             Some(old) => usize::from(before.position(old) != subject.mesh.position(v)),
         };

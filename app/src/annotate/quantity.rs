@@ -4,8 +4,8 @@ use std::convert::Infallible;
 use std::fmt;
 use std::str::FromStr;
 
-/// Something that has a number, or a colour, at each vertex or face. As text: one of the names of [`Quantity::NAMED`], the
-/// name of a vertex property, or that with `:color` behind it for a `vec` that is a colour itself; `property:` in front
+/// Something that has a number, or a colour, at each vertex or face. As text: one of the names of [`Quantity::NAMED`],
+/// `change:3` for the change since generation 3, the name of a vertex property, or that with `:color` behind it for a `vec` that is a colour itself; `property:` in front
 /// of a property that is called like something else.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(from = "String", into = "String")]
@@ -25,6 +25,8 @@ pub enum Quantity {
     Birth,
     /// What has become of the vertex in the last step.
     Change,
+    /// The same since a generation.
+    Since(u64),
     /// The coordinate along an axis, 0 to 2.
     Coordinate(u8),
     /// A vertex property; the length of a `vec`.
@@ -33,6 +35,7 @@ pub enum Quantity {
     Color(String),
 }
 
+const SINCE: &str = "change:";
 const COLOR: &str = ":color";
 const PROPERTY: &str = "property:";
 
@@ -62,6 +65,7 @@ impl Quantity {
             Self::Mean => "mean curvature".to_owned(),
             Self::Birth => "generation of birth".to_owned(),
             Self::Change => "change in the last step".to_owned(),
+            Self::Since(generation) => format!("change since generation {generation}"),
             Self::Coordinate(axis) => format!("coordinate {}", ["x", "y", "z"][usize::from(*axis).min(2)]),
             Self::Property(name) => name.clone(),
             Self::Color(name) => format!("{name} as colour"),
@@ -72,6 +76,7 @@ impl Quantity {
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Since(generation) => write!(f, "{SINCE}{generation}"),
             Self::Color(name) => write!(f, "{name}{COLOR}"),
             Self::Property(name) => {
                 // Else it would be read as something else.
@@ -89,6 +94,9 @@ impl FromStr for Quantity {
     fn from_str(text: &str) -> Result<Self, Infallible> {
         if let Some((_, quantity)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
             return Ok(quantity.clone());
+        }
+        if let Some(generation) = text.strip_prefix(SINCE).and_then(|number| number.parse().ok()) {
+            return Ok(Self::Since(generation));
         }
         if let Some(name) = text.strip_prefix(PROPERTY) {
             return Ok(Self::Property(name.to_owned()));

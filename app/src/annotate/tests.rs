@@ -108,7 +108,21 @@ fn check_classes(field: &Field, expected: &[(&str, usize)]) {
 
 #[test]
 fn a_quantity_is_said_in_a_word() {
-    for text in ["none", "valence", "degree", "gauss", "mean", "birth", "change", "x", "y", "z", "heat", "rgb:color"] {
+    for text in [
+        "none",
+        "valence",
+        "degree",
+        "gauss",
+        "mean",
+        "birth",
+        "change",
+        "change:3",
+        "x",
+        "y",
+        "z",
+        "heat",
+        "rgb:color",
+    ] {
         let quantity: Quantity = text.parse().unwrap();
         assert_eq!(quantity.to_string(), text);
     }

@@ -21,8 +21,8 @@ use super::{Exit, error, fail, paper, style};
 pub struct LookArguments {
     /// Colour pictures by valence, gauss, birth, a property …
     ///
-    /// One of valence, degree (of faces), gauss, mean (curvature), birth (generation), change (in the last step), x, y,
-    /// z, or a vertex property; `NAME:color` takes a vec as red, green, blue.
+    /// One of valence, degree (of faces), gauss, mean (curvature), birth (generation), change (in the last step),
+    /// change:N (since generation N), x, y, z, or a vertex property; `NAME:color` takes a vec as red, green, blue.
     #[arg(long, value_name = "WHAT", value_parser = quantity)]
     color_by: Option<Quantity>,
     /// The numbers at both ends of the colours.

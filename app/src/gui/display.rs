@@ -69,6 +69,7 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         }
     });
     response.response.on_hover_text("what the surface is coloured by").accessible_name("Colour by");
+    compared(ui, session, commands);
     let legend = session.colors().and_then(Result::ok).map(|tint| tint.legend.clone());
     let shows_range = session.colors().and_then(Result::ok).is_some_and(|tint| tint.has_range());
     if let Some(legend) = legend.filter(|_| shows_range) {
@@ -94,6 +95,31 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             }
         });
     }
+}
+
+/// The generation that the one shown is compared with, where change is shown.
+fn compared(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
+    let before = session.shown_generation().saturating_sub(1);
+    let mut since = match session.document.annotations.color_by {
+        Quantity::Change => before,
+        Quantity::Since(generation) => generation,
+        _ => return,
+    };
+    ui.horizontal(|ui| {
+        let label = ui.label("since generation");
+        let field = DragValue::new(&mut since).range(0..=session.last_reached()).speed(0.05);
+        let field = ui.add(field.update_while_editing(false)).labelled_by(label.id);
+        if field.on_hover_text("which generation the one shown is compared with").changed() {
+            commands.push(Command::ColorBy(Quantity::Since(since)));
+        }
+        let last = ui.add_enabled(
+            session.document.annotations.color_by != Quantity::Change,
+            eframe::egui::Button::new("Last step").small(),
+        );
+        if last.on_hover_text("what changed in the last step, in each generation").clicked() {
+            commands.push(Command::ColorBy(Quantity::Change));
+        }
+    });
 }
 
 fn labels_and_arrows(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

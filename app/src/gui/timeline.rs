@@ -61,6 +61,11 @@ fn menu(ui: &mut Ui, session: &Session, generation: u64, commands: &mut Vec<Comm
     let entries = [
         (format!("Go to generation {generation}"), "show it", Command::GoTo(generation)),
         (
+            format!("Compare with generation {generation}"),
+            "colour what was born and what moved since then, in whatever generation is shown",
+            Command::ColorBy(Quantity::Since(generation)),
+        ),
+        (
             "Colour what its step changed".to_owned(),
             "show it, and what was born and what moved since the generation before",
             with(Command::ColorBy(Quantity::Change)),
@@ -72,11 +77,13 @@ fn menu(ui: &mut Ui, session: &Session, generation: u64, commands: &mut Vec<Comm
             with(Command::Choose(Purpose::ExportMesh)),
         ),
     ];
+    let reached = session.reached();
     for (i, (label, tooltip, command)) in entries.into_iter().enumerate() {
-        if i == 2 {
+        if i == 3 {
             ui.separator();
         }
-        let enabled = session.frame().is_some() && (i != 1 || generation > 0);
+        let kept = generation == 0 || reached.get(&generation).is_some_and(|r| r.kept);
+        let enabled = session.frame().is_some() && (i != 1 || kept) && (i != 2 || generation > 0);
         if menu_entry(ui, enabled, &label, tooltip) {
             commands.push(command);
         }
@@ -145,6 +152,14 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             }
         }
     }
+    if let Quantity::Since(generation) = session.document.annotations.color_by
+        && generation <= last
+    {
+        // A diamond above the one that is compared with.
+        let center = pos2(at(generation), y - 9.0);
+        let corners = [vec2(0.0, -3.5), vec2(3.5, 0.0), vec2(0.0, 3.5), vec2(-3.5, 0.0)].map(|d| center + d);
+        painter.add(egui::Shape::convex_polygon(corners.to_vec(), visuals.warn_fg_color, Stroke::NONE));
+    }
     // Where the work is.
     if let Some((_, Some(generation))) = session.progress() {
         painter.circle_stroke(pos2(at(generation.min(last)), y), 6.0, Stroke::new(1.5, visuals.warn_fg_color));
@@ -181,6 +196,8 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             }
             None => format!("generation {generation}"),
         };
+        let compared = session.document.annotations.color_by == Quantity::Since(generation);
+        let text = if compared { format!("{text}; the one that is compared with") } else { text };
         response.on_hover_text_at_pointer(text);
     }
 }

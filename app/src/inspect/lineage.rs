@@ -1,8 +1,9 @@
-//! Which vertex of a generation was which of another.
+//! Which vertex of a generation was which of another, and the meshes of those generations that are kept.
 //!
 //! Closing a step forgets vertices and numbers the others anew ([`vv::mesh::close`]), in order of creation: so those that
 //! were there before a step come first, in their old order.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError, RwLock};
 
 use vv::mesh::{Mesh, Vertex};
@@ -51,10 +52,10 @@ impl Survivors {
     }
 }
 
-/// The survivors of all generations of a recipe that were ever reached. It only grows, as every generation comes out the
-/// same each time it is computed; clones share it.
+/// The survivors of all generations of a recipe that were ever reached: they only become more, as every generation comes
+/// out the same each time it is computed. Beside them the meshes to compare with. Clones share both.
 #[derive(Debug, Clone, Default)]
-pub struct Lineage(Arc<RwLock<Vec<Survivors>>>);
+pub struct Lineage(Arc<RwLock<Vec<Survivors>>>, Arc<RwLock<BTreeMap<u64, Mesh>>>);
 
 impl Lineage {
     /// Tells of a generation; those before it were told of already, or it is left out.
@@ -63,6 +64,22 @@ impl Lineage {
         if all.len() as u64 == generation {
             all.push(survivors.clone());
         }
+    }
+
+    /// Keeps the mesh of a generation.
+    pub fn keep(&self, generation: u64, mesh: Mesh) {
+        self.1.write().unwrap_or_else(PoisonError::into_inner).insert(generation, mesh);
+    }
+
+    /// Keeps it no longer.
+    pub fn forget(&self, generation: u64) {
+        self.1.write().unwrap_or_else(PoisonError::into_inner).remove(&generation);
+    }
+
+    /// The mesh of a generation, if it is kept.
+    #[must_use]
+    pub fn mesh(&self, generation: u64) -> Option<Mesh> {
+        self.1.read().unwrap_or_else(PoisonError::into_inner).get(&generation).cloned()
     }
 
     /// The generation in which a vertex of `generation` was born. Cost: its age.

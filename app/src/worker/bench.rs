@@ -15,10 +15,11 @@ use vv::ir::Program;
 use vv::mesh::{Mesh, Value};
 use vv::stop::{Stop, Stopped};
 
-use super::history::{History, Kept, frame};
+use super::history::{History, frame};
 use super::printer::Printer;
 use super::results;
 use super::{Event, Failed, Frame, Made, Reached, Recipe, Report, Request, Shared, lock};
+use crate::annotate::Quantity;
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
 use crate::inspect::findings::Findings;
@@ -297,10 +298,8 @@ impl Bench {
                 }
             };
             printer.flush();
-            let kept = Kept { generation: result.map_err(failed)?, frame: None };
-            history.lineage.add(generation, &kept.generation.survivors);
-            history.generations.insert(generation, kept);
-            history.evict(self.shared.memory.load(Ordering::Relaxed), generation);
+            history.insert(generation, result.map_err(failed)?);
+            self.evict(history, generation);
             self.tell_reached(history);
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
@@ -309,8 +308,16 @@ impl Bench {
         let frame = history.frame(request, made, stop).map_err(stopped)?;
         let annotations = lock(&self.shared.annotations).clone();
         frame.colors.find(&frame.subject(), &annotations, stop);
-        history.evict(self.shared.memory.load(Ordering::Relaxed), request.generation);
+        self.evict(history, request.generation);
         Ok(frame)
+    }
+
+    fn evict(&self, history: &mut History, current: u64) {
+        let compared = match lock(&self.shared.annotations).color_by {
+            Quantity::Since(generation) => Some(generation),
+            _ => None,
+        };
+        history.evict(self.shared.memory.load(Ordering::Relaxed), current, compared);
     }
 }
 

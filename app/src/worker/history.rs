@@ -43,6 +43,13 @@ impl History {
         Self { recipe, generations: BTreeMap::new(), lineage: Lineage::default(), control: None }
     }
 
+    /// Keeps a generation.
+    pub fn insert(&mut self, number: u64, generation: Generation) {
+        self.lineage.add(number, &generation.survivors);
+        self.lineage.keep(number, generation.mesh.clone());
+        self.generations.insert(number, Kept { generation, frame: None });
+    }
+
     /// The picture of a generation that is kept.
     pub fn frame(&mut self, request: &Request, made: Option<Made>, stop: &Stop) -> Result<Arc<Frame>, Stopped> {
         let control_mesh = self.generations.get(&0).map(|kept| kept.generation.mesh.clone());
@@ -73,10 +80,11 @@ impl History {
     }
 
     /// Forgets pictures first, then meshes, those farthest from `current` first, until `memory` bytes suffice.
-    /// Generation 0 and `current` stay.
-    pub fn evict(&mut self, memory: usize, current: u64) {
+    /// Generation 0, `current` and the one that is compared with stay.
+    pub fn evict(&mut self, memory: usize, current: u64, compared: Option<u64>) {
         let mut total: usize = self.generations.values().map(Kept::bytes).sum();
         let mut order: Vec<u64> = self.generations.keys().copied().filter(|&g| g != 0 && g != current).collect();
+        order.retain(|g| Some(*g) != compared);
         order.sort_by_key(|g| std::cmp::Reverse(g.abs_diff(current)));
         for g in &order {
             if total <= memory {
@@ -93,6 +101,7 @@ impl History {
                 return;
             }
             total -= self.generations.remove(g).map_or(0, |kept| kept.bytes());
+            self.lineage.forget(*g);
         }
     }
 }

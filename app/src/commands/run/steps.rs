@@ -1,5 +1,6 @@
 //! The generations of one run.
 
+use app::annotate::Quantity;
 use app::evaluation::{self, Generation, within_halted};
 use app::inspect::lineage::Survivors;
 use vv::diagnostic::Diagnostic;
@@ -64,6 +65,9 @@ impl Run<'_> {
             state.past.lineage.add(step, &next.survivors);
             state.past.generation = step;
             let before = std::mem::replace(&mut state.mesh, next.mesh);
+            if self.shot.look.annotations.color_by == Quantity::Since(step - 1) {
+                state.past.lineage.keep(step - 1, before.clone());
+            }
             state.past.first.get_or_insert_with(|| before.clone());
             state.past.before = Some(before);
             state.timings.steps_s.push(next.step_s);

@@ -86,6 +86,47 @@ fn a_right_click_on_a_generation_offers_what_to_do_with_it() {
 }
 
 #[test]
+fn any_generation_is_compared_with_any_other() {
+    let mut window = octahedron();
+    press(&mut window, Key::Num3);
+    let track = window.get_by_label("Time line").rect();
+    let at = egui::pos2(track.left() + 14.0 + 46.0, track.center().y);
+    window.hover_at(at);
+    for pressed in [true, false] {
+        let (button, modifiers) = (egui::PointerButton::Secondary, Modifiers::NONE);
+        window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
+        window.step();
+    }
+    window.run_steps(3);
+    click(&mut window, "Compare with generation 1");
+    let counts = |window: &mut Harness<'static, App>| -> Vec<(String, usize)> {
+        until(window, "the colours are found", |s| s.colors().is_some());
+        match window.state().session().colors() {
+            Some(Ok(tint)) => match &tint.field.kind {
+                app::annotate::field::Kind::Classes(all) => all.iter().map(|c| (c.name.clone(), c.count)).collect(),
+                other => panic!("{other:?}"),
+            },
+            other => vec![(other.unwrap().unwrap_err(), 0)],
+        }
+    };
+    let classes = |born| [("stayed".to_owned(), 0), ("moved".to_owned(), 18), ("born".to_owned(), born)];
+    // Generation 1 has 18 vertices, 3 has 258, 2 has 66.
+    assert_eq!(counts(&mut window), classes(240));
+    press(&mut window, Key::Num2);
+    assert_eq!(counts(&mut window), classes(48));
+    press(&mut window, Key::Num1);
+    assert_eq!(counts(&mut window), [("this is the generation that others are compared with".to_owned(), 0)]);
+    press(&mut window, Key::Num0);
+    assert_eq!(counts(&mut window), [("generation 1 comes after this one".to_owned(), 0)]);
+    press(&mut window, Key::Num3);
+    click(&mut window, "Last step");
+    assert_eq!(counts(&mut window)[2], ("born".to_owned(), 192));
+    window.state_mut().apply(Command::ColorBy(app::annotate::Quantity::Since(0)));
+    settle(&mut window);
+    assert_eq!(counts(&mut window)[2], ("born".to_owned(), 252));
+}
+
+#[test]
 fn what_waits_for_a_generation_is_forgotten_when_another_one_is_wanted() {
     let mut window = octahedron();
     let save = || Box::new(Command::SavePicture);
