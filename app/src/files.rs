@@ -265,9 +265,16 @@ fn misnamed(bytes: &[u8], format: Format) -> Option<&'static str> {
 fn read(path: &Path, limit: u64, is_text: impl Fn(&[u8]) -> bool, stop: &Stop) -> Result<Vec<u8>, FileError> {
     const CHUNK: u64 = 1 << 20;
     let fail = |error: io::Error| FileError::new(path, sentence(&error));
-    let mut source: Box<dyn Read> =
-        if is_standard_stream(path) { Box::new(io::stdin().lock()) } else { Box::new(open(path)?) };
     let mut bytes = Vec::new();
+    let mut source: Box<dyn Read> = if is_standard_stream(path) {
+        Box::new(io::stdin().lock())
+    } else {
+        let file = open(path)?;
+        let length = file.metadata().map_or(0, |data| data.len().min(limit));
+        // A little more: reading to the end asks once more.
+        let _ = bytes.try_reserve_exact(length as usize + 64);
+        Box::new(file)
+    };
     loop {
         let count = source.by_ref().take(CHUNK).read_to_end(&mut bytes).map_err(fail)?;
         if count == 0 {

@@ -43,7 +43,7 @@ pub use set::VertexSet;
 
 use members::Members;
 use ring::Rings;
-pub(crate) use ring::{FRESH_CAPACITY, Head};
+pub(crate) use ring::{FRESH_CAPACITY, Head, PADDING};
 
 /// A vertex of the universe. Vertices compare in order of creation, and `None < Some(v)`: null comes first.
 #[repr(transparent)]
@@ -128,6 +128,14 @@ impl Mesh {
             + self.positions.bytes()
             + self.vertex_properties.iter().map(|p| p.values.bytes()).sum::<usize>()
             + self.set.bytes()
+    }
+
+    /// Vertices at these positions, all in the set, whose rings are empty and have room for so many neighbours and gaps,
+    /// one after the other.
+    pub(crate) fn with_room(positions: Vec<DVec3>, lens: &[u32]) -> Result<Self, Full> {
+        let rings = Rings::with_room(lens)?;
+        let set = VertexSet::first(positions.len());
+        Ok(Self { rings, positions: positions.into(), set, ..Self::default() })
     }
 
     /// Creates a vertex with an empty ring at the origin, its properties at their defaults. It joins no set.

@@ -59,7 +59,9 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     let mut ignored = !stream && words.finish_line() > 0;
 
     let flat = !stream && vertex_count > 0 && words.words_on_next_line() == 2;
-    let mut positions = Vec::new();
+    // A line of a vertex or a face has that many bytes at least, whatever the header announces.
+    let announced = |count: u64| count.min(text.len() as u64 / 6) as usize;
+    let mut positions = Vec::with_capacity(announced(vertex_count));
     let (mut colors, mut greatest) = (Colors::default(), 0.0);
     let mut rest = Vec::new();
     while (positions.len() as u64) < vertex_count {
@@ -89,6 +91,7 @@ pub(super) fn read(text: &[u8], stop: &Stop) -> Result<(Polygons, Vec<Diagnostic
     }
 
     let mut polygons = Polygons::new(positions);
+    polygons.reserve(announced(face_count), 4 * announced(face_count));
     let mut corners = Vec::new();
     while (polygons.len() as u64) < face_count {
         stop.check()?;

@@ -81,6 +81,13 @@ impl Polygons {
         Self { positions, ..Self::default() }
     }
 
+    /// Makes room for so many faces with so many corners.
+    pub(crate) fn reserve(&mut self, faces: usize, corners: usize) {
+        self.corners.reserve_exact(corners);
+        self.ends.reserve_exact(faces);
+        self.names.reserve_exact(faces);
+    }
+
     /// Adds a face by the numbers of its corners, from 0, counter-clockwise seen from outside; `line` is the line of
     /// the file it stands in. A corner that is no vertex makes no face: the number is returned.
     ///

@@ -9,6 +9,9 @@ use super::{Column, Full, Property, Value, Vertex};
 /// Room a ring gets when it is first written: six neighbours is what most triangle meshes settle at.
 pub(crate) const FRESH_CAPACITY: u32 = 6;
 
+/// Room behind the last slot that makers of large arenas leave: machine code reads that far, though it means nothing.
+pub(crate) const PADDING: usize = 24;
+
 /// Above this many items a duplicate is looked for by hashing rather than by comparing all pairs.
 const PAIRWISE_LIMIT: usize = 32;
 
@@ -153,6 +156,19 @@ impl Rings {
 
     pub(super) fn bytes(&self) -> usize {
         self.heads.bytes() + self.slots.bytes() + self.properties.iter().map(|p| p.values.bytes()).sum::<usize>()
+    }
+
+    /// Empty rings with room for so many slots each.
+    pub(super) fn with_room(lens: &[u32]) -> Result<Self, Full> {
+        let mut heads = Vec::with_capacity(lens.len());
+        let mut end = 0_u32;
+        for &capacity in lens {
+            heads.push(Head { offset: end, len: 0, capacity });
+            end = end.checked_add(capacity).ok_or(Full)?;
+        }
+        let mut slots = Vec::with_capacity(end as usize + PADDING);
+        slots.resize(end as usize, None);
+        Ok(Self { heads: heads.into(), slots: slots.into(), properties: Vec::new() })
     }
 
     pub(super) fn create(&mut self) -> Result<Vertex, Full> {

@@ -22,6 +22,12 @@ struct Members {
 }
 
 impl VertexSet {
+    /// The first `n` vertices of a universe, in order.
+    pub(super) fn first(n: usize) -> Self {
+        let order = (0..n).map(Vertex::from_index).collect();
+        Self(Arc::new(Members { order, places: None }))
+    }
+
     /// How many members.
     #[must_use]
     pub fn len(&self) -> usize {

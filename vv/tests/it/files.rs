@@ -89,6 +89,15 @@ fn polygons_make_rings_that_start_with_the_first_face_that_names_the_vertex() {
 }
 
 #[test]
+fn what_is_read_takes_no_more_room_than_it_needs() {
+    let bytes_of = |faces: &str| read(off(faces).as_bytes(), Format::Off, &ReadOptions::default()).unwrap().0.bytes();
+    // Head, position and place in the set of each vertex; slots, and the room behind them.
+    let expected = |vertices: usize, slots: usize| vertices * (12 + 24 + 4) + 4 * (slots + 24);
+    assert_eq!(bytes_of(TETRAHEDRON), expected(4, 4 * 3));
+    assert_eq!(bytes_of("1 2 3 4 5 6 7"), expected(7, 7 * 3));
+}
+
+#[test]
 fn neighbouring_faces_that_disagree_are_turned_the_fewer() {
     check_faces(
         "1 2 3 / 1 4 3 / 1 4 2 / 2 4 3",

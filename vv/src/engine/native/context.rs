@@ -86,8 +86,7 @@ pub(super) struct RawList {
     pub(super) capacity: u64,
 }
 
-/// Slots that can be read, though they mean nothing, behind the last one in use.
-pub(super) const PADDING: usize = 24;
+pub(super) use crate::mesh::PADDING;
 
 /// Room for a ring of `len` slots that may grow: as many as are edited at once, see `edit_widths` of the translator.
 pub(super) fn room_for(len: u32) -> u32 {

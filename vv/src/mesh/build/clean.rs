@@ -18,6 +18,7 @@ fn drop_degenerate(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> 
     let mut repeated = Vec::new();
     let mut dropped = Vec::new();
     let mut kept = Polygons::default();
+    kept.reserve(polygons.len(), polygons.corners.len());
     for f in 0..polygons.len() {
         stop.check()?;
         let corners = polygons.face(f);

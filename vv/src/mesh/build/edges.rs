@@ -58,7 +58,7 @@ impl Edges {
             buckets[fill[low as usize] as usize] = (high, h as u32);
             fill[low as usize] += 1;
         }
-        let mut ends = Vec::new();
+        let mut ends = Vec::with_capacity(corners.len() / 2);
         for v in 1..starts.len() {
             stop.check()?;
             let range = starts[v - 1] as usize..starts[v] as usize;

@@ -82,7 +82,7 @@ impl Fans {
         stop: &Stop,
     ) -> Result<Self, Stopped> {
         let face = &edges.face;
-        let mut fans: Vec<Fan> = Vec::new();
+        let mut fans: Vec<Fan> = Vec::with_capacity(polygons.positions.len());
         let mut of_corner = vec![NONE; face.len()];
         for first in 0..face.len() as u32 {
             if of_corner[first as usize] != NONE {
@@ -114,7 +114,8 @@ impl Fans {
             }
             fans.push(fan);
         }
-        let mut fans = Self { fans, of_corner, home: Vec::new(), duplicates: Vec::new() };
+        let mut fans =
+            Self { fans, of_corner, home: Vec::with_capacity(polygons.positions.len()), duplicates: Vec::new() };
         fans.settle(edges, polygons.positions.len(), tangled, apart, stop)?;
         Ok(fans)
     }
@@ -158,13 +159,16 @@ impl Fans {
     fn mesh(&self, polygons: &Polygons, edges: &Edges, pairs: &[u32], stop: &Stop) -> Result<Rings, BuildError> {
         let face = &edges.face;
         let vertex = |corner: u32| Vertex::from_index(self.home[self.of_corner[corner as usize] as usize] as usize);
-        let mut mesh = Mesh::new();
-        let duplicates = self.duplicates.iter().map(|&(v, _)| polygons.positions[v as usize]);
-        for position in polygons.positions.iter().copied().chain(duplicates) {
-            let v = mesh.create().map_err(|_| full())?;
-            mesh.set_position(v, position);
-            mesh.set.add(v);
+        let mut positions = Vec::with_capacity(polygons.positions.len() + self.duplicates.len());
+        positions.extend_from_slice(&polygons.positions);
+        positions.extend(self.duplicates.iter().map(|&(v, _)| polygons.positions[v as usize]));
+        // An open fan has a neighbour more than faces, and a gap.
+        let mut lens = vec![0; positions.len()];
+        for (fan, &home) in self.fans.iter().zip(&self.home) {
+            lens[home as usize] += fan.len + if fan.closed { 0 } else { 2 };
         }
+        let mut mesh = Mesh::with_room(positions, &lens).map_err(|_| full())?;
+        drop(lens);
         // The fans of each vertex, in order.
         let mut by_home: Vec<u32> = (0..self.fans.len() as u32).collect();
         by_home.sort_by_key(|&f| self.home[f as usize]); // stable

@@ -81,6 +81,6 @@ fn memory_that_is_kept_is_not_handed_out_again() {
         std::hint::black_box(vec![1_u8; bytes]);
         pages() - before
     };
-    let (first, second) = (pages_of(20 << 20), pages_of(12 << 20));
+    let (first, second) = (pages_of(60 << 20), pages_of(50 << 20));
     assert!(first > 1000 && second < 100, "{first}, {second}");
 }
