@@ -351,6 +351,7 @@ impl Parser<'_> {
             let path = self.source(span).trim_matches(['"', '“', '”']).to_owned();
             self.bump();
             self.eat(Kind::Semicolon);
+            self.end_line();
             return Some(Item::Include { path, span });
         }
         while !self.is_end() && !self.token(self.at).new_line {
@@ -364,15 +365,34 @@ impl Parser<'_> {
                 line,
                 "",
             ),
-            "include" => Diagnostic::error(line, "expected a file name in quotes after `#include`")
-                .hint("write `#include \"insert.vv\"`"),
+            "include" => {
+                let error = Diagnostic::error(line, "expected a file name in quotes after `#include`");
+                match self.source(line).split_once("include").map(|(_, name)| name.trim()) {
+                    Some(name) if name.ends_with(".vv") && !name.contains(['"', ' ']) => {
+                        error.fix("write it in quotes", line, format!("#include \"{name}\""))
+                    }
+                    _ => error.hint("write `#include \"insert.vv\"`"),
+                }
+            }
             "define" => Diagnostic::error(line, "vv has no macros")
                 .hint("write `const double k = 0.5;`, or `param` for a slider"),
             _ => {
-                Diagnostic::error(line, "vv has no preprocessor but `#include \"file.vv\"`").hint("leave this line out")
+                let message = "vv has no preprocessor but `#include \"file.vv\"`";
+                Diagnostic::error(line, message).fix("leave this line out", line, "")
             }
         });
         None
+    }
+
+    /// A line that nothing else stands on: what follows would look as if it belonged to it.
+    fn end_line(&mut self) {
+        if self.is_end() || self.token(self.at).new_line {
+            return;
+        }
+        let (here, before) = (self.here(), self.after_previous());
+        let between = Span { end: here.start, ..before };
+        let error = Diagnostic::error(here, "expected the end of the line after `#include`");
+        self.mend(error.fix("begin another line", between, "\n"));
     }
 
     /// Skips to where an item begins at the start of a line.

@@ -125,6 +125,19 @@ fn hints_carry_the_edit_that_mends() {
     check_fix("print \"text;\n", "print \"text\";\n");
 }
 
+#[test]
+fn hints_mend_directives() {
+    let check = |text: &str, expected: &str| {
+        let mended = mended(text, &parse(FileId::MAIN, text).1);
+        assert_eq!(mended, expected);
+        assert!(parse(FileId::MAIN, &mended).1.is_empty());
+    };
+    check("#include \"a.vv\"param int n = 1;\n", "#include \"a.vv\"\nparam int n = 1;\n");
+    check("#include \"a.vv\"   #include \"b.vv\"\n", "#include \"a.vv\"\n#include \"b.vv\"\n");
+    check("#include  insert.vv\nvoid f() { }\n", "#include \"insert.vv\"\nvoid f() { }\n");
+    check("#pragma once\nvoid f() { }\n", "\nvoid f() { }\n");
+}
+
 /// The tree of a mended text is that of what was meant.
 #[test]
 fn mended_mistakes_are_read_as_meant() {

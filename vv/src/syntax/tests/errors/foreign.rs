@@ -211,7 +211,9 @@ fn preprocessor() {
     #include <cmath>
   //^^^^^^^^^^^^^^^^ error: vv has no header files, its functions are built in | leave this line out
     #include insert.vv
-  //^^^^^^^^^^^^^^^^^^ error: expected a file name in quotes after `#include` | write `#include "insert.vv"`
+  //^^^^^^^^^^^^^^^^^^ error: expected a file name in quotes after `#include` | write it in quotes
+    #include
+  //^^^^^^^^ error: expected a file name in quotes after `#include` | write `#include "insert.vv"`
     #define K 3
   //^^^^^^^^^^^ error: vv has no macros | write `const double k = 0.5;`, or `param` for a slider
     #pragma once

@@ -193,3 +193,17 @@ fn nothing_but_the_mistake() {
     "#,
     );
 }
+
+#[test]
+fn an_include_has_a_line_of_its_own() {
+    check_file(
+        r#"
+    #include "a.vv" param double w = 0.5;
+  //                ^^^^^ error: expected the end of the line after `#include` | begin another line
+    #include "a.vv"; #include "b.vv"
+  //                 ^ error: expected the end of the line after `#include` | begin another line
+    #include "c.vv" // of another kind
+    void f() { }
+"#,
+    );
+}
