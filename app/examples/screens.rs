@@ -280,8 +280,7 @@ const STATES: &[State] = &[
         name: "no-file-dialog",
         prepare: |w| {
             let path = "assets/meshes/t".to_owned();
-            w.state_mut().session_mut().dialog =
-                Some(Dialog::TypePath { purpose: Purpose::OpenMesh, path, then: None });
+            w.state_mut().session_mut().dialog = Some(Dialog::path(Purpose::OpenMesh, path, None));
         },
     },
     State {

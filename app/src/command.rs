@@ -216,6 +216,8 @@ pub enum Answer {
 /// Something to do in the editor, at its cursor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextAction {
+    /// The keys go to the picture, or back to the text.
+    Keys,
     /// Opens the field to find text.
     Find,
     /// Opens the fields to find and replace text.
@@ -521,6 +523,11 @@ fn describe_color(quantity: &Quantity) -> Description {
 impl TextAction {
     fn describe(self) -> Description {
         let (label, tooltip, shortcuts): (_, _, &'static [KeyboardShortcut]) = match self {
+            Self::Keys => (
+                "Text or picture",
+                "type into the program, or give the keys to the picture, where letters are commands",
+                const { &[key(Key::F6)] },
+            ),
             Self::Find => ("Find…", "find text in the program", const { &[ctrl(Key::F)] }),
             Self::Replace => ("Replace…", "find and replace text in the program", const { &[ctrl(Key::H)] }),
             Self::FindNext => ("Find next", "go to the next place that was found", const { &[key(Key::F3)] }),

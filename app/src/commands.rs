@@ -13,7 +13,6 @@ mod lsp;
 mod mask;
 mod open;
 mod output;
-mod paper;
 mod picture;
 mod reference;
 mod render;
@@ -28,6 +27,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use app::alike::closest;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::source::Sources;
@@ -267,28 +267,6 @@ fn seconds(text: &str) -> Result<Timeout, String> {
     Duration::try_from_secs_f64(seconds).map(|d| Timeout(Some(d))).map_err(|_| wanted())
 }
 
-/// The candidate that is most like `name`, if one is like it at all.
-fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let distances = candidates.into_iter().map(|candidate| (edit_distance(name, candidate), candidate));
-    let (distance, candidate) = distances.min_by_key(|&(distance, _)| distance)?;
-    (distance <= name.chars().count().max(candidate.chars().count()) / 3).then_some(candidate)
-}
-
-/// Levenshtein's distance: fewest insertions, deletions and replacements.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
-        for (j, &y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
 /// `a`, `b` and `c`, each in back quotes.
 fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<_> = names.into_iter().map(|name| format!("`{name}`")).collect();
@@ -322,16 +300,6 @@ mod tests {
             command.get_subcommands().for_each(walk);
         }
         walk(&Cli::command());
-    }
-
-    #[test]
-    fn a_name_is_guessed_only_if_it_is_alike() {
-        let names = ["run", "check", "mesh"];
-        assert_eq!(closest("rnu", names), None);
-        assert_eq!(closest("chek", names), Some("check"));
-        assert_eq!(closest("meshes", names), Some("mesh"));
-        assert_eq!(closest("x", names), None);
-        assert_eq!(edit_distance("kitten", "sitting"), 3);
     }
 
     #[test]

@@ -26,6 +26,7 @@ mod mask;
 mod notes;
 mod order;
 mod page;
+pub mod paper;
 mod pdf;
 mod raster;
 mod space;

@@ -14,7 +14,7 @@ use vv::mesh::Mesh;
 use vv::stop::Stop;
 use vv::{Compilation, Included};
 
-pub use writing::{Prepared, abandon, commit, place, prepare, write};
+pub use writing::{Prepared, abandon, check_writable, commit, place, prepare, write};
 
 use crate::library;
 

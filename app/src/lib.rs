@@ -1,5 +1,6 @@
 //! The vv modeler: owns files, windows, threads and the GPU.
 
+pub mod alike;
 pub mod annotate;
 pub mod camera;
 pub mod command;

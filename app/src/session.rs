@@ -22,7 +22,6 @@ mod weighing;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::Receiver;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -46,8 +45,8 @@ use crate::worker::{Frame, Request, Ticket, Worker};
 use crate::{evaluation, library};
 
 pub use beside::Beside;
-pub use dialog::{Dialog, Purpose};
-use files::{Chooser, is_project};
+pub use dialog::{Dialog, PathTrouble, Purpose};
+use files::{Chooser, Work, is_project};
 pub use inspecting::{Fault, Inspection, Walking};
 pub use problem::{Place, Problem, Problems};
 pub use undo::changed;
@@ -71,6 +70,26 @@ pub enum Stale {
     Failed(String),
     /// The user stopped it.
     Stopped,
+}
+
+/// A step that failed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Halted {
+    /// The generation that was not reached.
+    pub generation: u64,
+    /// Why.
+    pub message: String,
+}
+
+/// What the picture is, when it is not what is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// Made by the program that is open, perhaps when its text was another one.
+    This,
+    /// Made by a program that was open before.
+    Former,
+    /// The mesh as it was read.
+    Mesh,
 }
 
 /// Which panels are open.
@@ -121,6 +140,8 @@ struct Running {
     request: Request,
     since: Instant,
     stepping: Option<u64>,
+    /// Which of the programs of the session asked for it.
+    of: u64,
 }
 
 /// The modeler without its window.
@@ -193,8 +214,13 @@ pub struct Session {
     /// The generation that was stopped last: what it printed tells where it hung.
     stopped: Option<u64>,
     frame: Option<Arc<Frame>>,
+    /// Which program of the session made it; `None` if none did: it is the mesh as it was read.
+    frame_of: Option<u64>,
     stale: Option<Stale>,
+    halted: Option<Halted>,
     program: Option<Arc<Program>>,
+    /// Which of the programs of the session it is.
+    program_of: u64,
     problems: Problems,
 
     playing: Option<Instant>,
@@ -206,7 +232,9 @@ pub struct Session {
     /// Whether the program's file was deleted.
     program_gone: bool,
     chooser: Option<Chooser>,
-    background: Vec<Receiver<Result<String, String>>>,
+    background: Vec<Work>,
+    /// The path that was typed for what is begun now.
+    typed: Option<(Purpose, String)>,
     notice: Option<(Severity, String, Instant)>,
     flight: Option<view::Flight>,
     /// When a viewpoint was asked for from the clipboard.
@@ -301,8 +329,11 @@ impl Session {
             running: None,
             stopped: None,
             frame: None,
+            frame_of: None,
             stale: None,
+            halted: None,
             program: None,
+            program_of: 0,
             problems: Problems::default(),
             playing: None,
             then: None,
@@ -311,6 +342,7 @@ impl Session {
             program_gone: false,
             chooser: None,
             background: Vec::new(),
+            typed: None,
             notice: None,
             flight: None,
             awaited: None,

@@ -12,6 +12,7 @@ use serde_json::value::RawValue;
 use vv::io::Place;
 
 use crate::annotate::Annotations;
+use crate::figure::{self, paper};
 use crate::files::{self, FileError};
 use crate::scene::Style;
 
@@ -47,6 +48,15 @@ pub struct Mistake {
     pub evidence: Option<String>,
     /// Where.
     pub place: Option<Place>,
+}
+
+/// A text of a style file that is none of its kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Misfit {
+    /// The names that lead to it, for [`place_of`].
+    pub names: Vec<String>,
+    /// What is wrong, in one sentence.
+    pub message: String,
 }
 
 impl StyleFile {
@@ -106,6 +116,32 @@ impl StyleFile {
             ),
         ];
         checks.into_iter().find(|(is_right, ..)| !is_right).map_or(Ok(()), |(_, names, wanted)| Err((names, wanted)))
+    }
+
+    /// What it says of figures.
+    ///
+    /// # Errors
+    /// The first text that is none of its kind.
+    pub fn figures(&self) -> Result<figure::Settings, Misfit> {
+        let mut figures = figure::Settings::default();
+        let at = |names: &[&str]| {
+            let names = names.iter().map(|&name| name.to_owned()).collect();
+            |message| Misfit { names, message }
+        };
+        if let Some(page) = &self.page {
+            figures.page = paper::page(page).map_err(at(&["page"]))?;
+        }
+        if let Some(points) = self.font_size {
+            figures.letters = paper::letters(&points.to_string()).map_err(at(&["font_size"]))?;
+        }
+        if let Some(amount) = self.fade {
+            figures.fade = paper::fade(&amount.to_string()).map_err(at(&["fade"]))?;
+        }
+        for (class, line) in &self.lines {
+            let (class, line) = paper::line(&format!("{class}={line}")).map_err(at(&["lines", class]))?;
+            figures.lines[class as usize] = line;
+        }
+        Ok(figures)
     }
 
     /// Writes it.

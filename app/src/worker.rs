@@ -16,7 +16,7 @@ mod results;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::JoinHandle;
@@ -235,6 +235,8 @@ struct Shared {
     reached: Mutex<BTreeMap<u64, Reached>>,
     /// Bytes that kept generations may use.
     memory: AtomicUsize,
+    /// Whether what was computed is to be forgotten.
+    forgotten: AtomicBool,
     /// What is to be shown on the frames to come.
     annotations: Mutex<Annotations>,
 }
@@ -265,6 +267,7 @@ impl Worker {
             console: Mutex::default(),
             reached: Mutex::default(),
             memory: AtomicUsize::new(memory),
+            forgotten: AtomicBool::new(false),
             annotations: Mutex::default(),
         });
         let (sender, reports) = mpsc::channel();
@@ -300,6 +303,13 @@ impl Worker {
     /// The generations that the last recipe has reached.
     pub fn reached(&self) -> MutexGuard<'_, BTreeMap<u64, Reached>> {
         lock(&self.shared.reached)
+    }
+
+    /// Forgets the generations of the last recipe and what they have printed: they are of no program any more.
+    pub fn forget(&self) {
+        self.shared.forgotten.store(true, Ordering::Relaxed);
+        lock(&self.shared.reached).clear();
+        lock(&self.shared.console).clear();
     }
 
     /// From now on frames come with the colours that are asked for.

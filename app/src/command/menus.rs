@@ -42,6 +42,7 @@ pub const MENUS: &[Menu] = &[
         title: "Edit",
         groups: &[
             &[Command::Undo, Command::Redo],
+            &[Command::Text(TextAction::Keys)],
             &[
                 Command::Text(TextAction::Find),
                 Command::Text(TextAction::Replace),

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Key, KeyboardShortcut};
 
-use super::{Command, Description, ctrl, key};
+use super::{Command, Description, ctrl};
 use crate::session::Session;
 
 /// Something to do with two documents.
@@ -30,7 +30,7 @@ impl PairAction {
                 "open a copy of the document beside it, to compare programs or meshes",
                 const { &[ctrl(Key::Backslash)] },
             ),
-            Self::Switch => ("Other side", "keys and panels belong to the other document", const { &[key(Key::F6)] }),
+            Self::Switch => ("Other side", "keys and panels belong to the other document", const { &[ctrl(Key::F6)] }),
             Self::Close => ("Close this side", "the other document stays", const { &[ctrl(Key::W)] }),
             Self::LinkViews => {
                 ("Link views", "look at both documents from the same viewpoint", const { &[ctrl(Key::L)] })

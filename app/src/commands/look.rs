@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use app::annotate::{Annotations, Arrows, Label, Quantity};
-use app::figure::{Class, Line, Notes, Page, Settings};
+use app::figure::{Class, Line, Notes, Page, Settings, paper};
 use app::inspect::lineage::Lineage;
 use app::scene::{Axis, Cut, Style, Surface, Theme};
 use clap::Args;
@@ -13,7 +13,7 @@ use vv::mesh::{Mesh, Vertex};
 use vv::source::Sources;
 
 use super::report::Reporter;
-use super::{Exit, error, fail, paper, style};
+use super::{Exit, error, fail, style};
 
 /// Options of everything that draws pictures.
 #[derive(Debug, Clone, Args)]

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use app::figure::paper;
 use app::files::FileError;
 use app::style_file::{StyleFile, place_of};
 
 use super::look::{self, Look, Word};
 use super::report::Reporter;
-use super::{Exit, input, paper};
+use super::{Exit, input};
 
 /// What was given.
 #[derive(Debug, Clone)]
@@ -55,25 +56,15 @@ pub fn look(given: &[Given], reporter: &Reporter) -> Result<Look, Exit> {
 fn read(path: &Path) -> Result<Look, FileError> {
     let (file, text) = StyleFile::read(path)?;
     let wrong = |names: &[&str], message: String| FileError::at(path, place_of(&text, names), message, None);
-    let mut look = Look { style: file.style, annotations: file.annotations, ..Look::default() };
+    let mut look = Look { style: file.style, annotations: file.annotations.clone(), ..Look::default() };
     look.notes.labels.clone_from(&look.annotations.labels);
     if let Some(background) = &file.background {
         look.background = Some(paper::background(background).map_err(|message| wrong(&["background"], message))?);
     }
-    if let Some(page) = &file.page {
-        look.figure.page = paper::page(page).map_err(|message| wrong(&["page"], message))?;
-        look.has_page = true;
-    }
-    if let Some(points) = file.font_size {
-        let letters = paper::letters(&points.to_string());
-        look.figure.letters = letters.map_err(|message| wrong(&["font_size"], message))?;
-    }
-    if let Some(amount) = file.fade {
-        look.figure.fade = paper::fade(&amount.to_string()).map_err(|message| wrong(&["fade"], message))?;
-    }
-    for (class, line) in &file.lines {
-        let parsed = paper::line(&format!("{class}={line}")).map_err(|message| wrong(&["lines", class], message))?;
-        look.figure.lines[parsed.0 as usize] = parsed.1;
-    }
+    look.figure = file.figures().map_err(|mistake| {
+        let names: Vec<&str> = mistake.names.iter().map(String::as_str).collect();
+        wrong(&names, mistake.message)
+    })?;
+    look.has_page = file.page.is_some();
     Ok(look)
 }

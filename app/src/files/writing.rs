@@ -43,12 +43,27 @@ pub fn prepare(path: &Path, bytes: &[u8]) -> Result<Prepared, FileError> {
         Ok(Target::Stream(bytes.to_owned()))
     } else {
         target(path, bytes).map_err(|(place, error)| match error.kind() {
+            // A file system that has no room for files of ours, as that of the kernel's processes, says so too.
+            ErrorKind::NotFound if place.is_dir() => {
+                let system = error.to_string();
+                let system = system.split(" (os error").next().unwrap_or_default();
+                let message = format!("no file can be made in `{}`; the system says \"{system}\"", place.display());
+                FileError::new(path, message)
+            }
             ErrorKind::NotFound => FileError::new(path, format!("there is no directory `{}`", place.display())),
             ErrorKind::PermissionDenied => FileError::new(path, format!("may not write to `{}`", place.display())),
             _ => FileError::new(path, sentence(&error)),
         })
     }?;
     Ok(Prepared { path: path.to_owned(), target })
+}
+
+/// Whether a file can be written here, as far as that is known before it is: its room is not.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn check_writable(path: &Path) -> Result<(), FileError> {
+    prepare(path, &[]).map(drop)
 }
 
 /// Puts prepared files in their places: streams first, because only they can fail for want of space or readers.
@@ -261,6 +276,8 @@ mod tests {
         fails(folder.path(), "is a directory, not a file");
         let missing = folder.path().join("no");
         fails(&missing.join("a"), &format!("there is no directory `{}`", missing.display()));
+        #[cfg(target_os = "linux")]
+        fails(Path::new("/proc/a"), "no file can be made in `/proc`; the system says \"No such file or directory\"");
     }
 
     #[test]

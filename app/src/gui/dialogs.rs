@@ -21,17 +21,15 @@ pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, command
     let project = session.project_path().map(crate::document::file_name);
     let name = project.clone().unwrap_or_else(|| session.document.program.name.clone());
     let Some(dialog) = &mut session.dialog else { return };
-    let mut chosen = None;
+    let mut typed = None;
     let enter = ctx.input(|i| i.key_pressed(Key::Enter)) && ctx.memory(|m| m.focused().is_none());
     let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
     let response = Modal::new(Id::unique("dialog")).frame(frame).show(ctx, |ui| {
         ui.set_width(380.0_f32.min(ui.ctx().content_rect().width() - 60.0));
         match dialog {
             Dialog::Unsaved { .. } => unsaved(ui, &name, project.is_some(), enter, commands),
-            Dialog::TypePath { purpose, path, .. } => {
-                if let Some(path) = type_path::show(ui, *purpose, path, commands) {
-                    chosen = Some((*purpose, path));
-                }
+            Dialog::TypePath { purpose, path, trouble, .. } => {
+                typed = type_path::show(ui, *purpose, path, trouble.as_ref(), commands);
             }
             Dialog::Recover { name } => recover(ui, name, enter, commands),
             _ => {} // shown above
@@ -40,8 +38,8 @@ pub fn show(ctx: &Context, session: &mut Session, gallery: &mut Gallery, command
     if response.should_close() {
         commands.push(Command::CloseDialog);
     }
-    if let Some((purpose, path)) = chosen {
-        session.chosen(purpose, path);
+    if let Some(wanted) = typed {
+        session.path_typed(wanted);
     }
 }
 

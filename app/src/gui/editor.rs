@@ -3,6 +3,7 @@
 mod change;
 mod completion;
 mod find;
+mod foot;
 mod page;
 mod tuning;
 mod typing;
@@ -13,8 +14,8 @@ use std::sync::Arc;
 use eframe::egui::text::{CCursor, CCursorRange, LayoutJob};
 use eframe::egui::text_edit::TextEditOutput;
 use eframe::egui::{
-    self, Align, Color32, Context, EventFilter, FontId, Galley, Id, Margin, Rect, RichText, ScrollArea, Shape,
-    TextBuffer, TextEdit, TextFormat, TextStyle, Ui, Vec2b, pos2, vec2,
+    self, Align, Color32, Context, EventFilter, FontId, Galley, Id, Key, Margin, Modifiers, Rect, RichText, ScrollArea,
+    Shape, TextBuffer, TextEdit, TextFormat, TextStyle, Ui, Vec2b, pos2, vec2,
 };
 use vv::assist::{Assist, number_at};
 
@@ -28,6 +29,9 @@ use page::{Page, byte_of, char_of};
 
 /// Seconds that the pointer rests on a word before it is explained.
 const REST: f32 = 0.45;
+
+/// Seconds in which it is said aloud that the keys are for somebody else now.
+const ALOUD: f64 = 8.0;
 
 /// Points between the text and what is around it.
 const MARGIN: i8 = 6;
@@ -58,8 +62,14 @@ pub struct Editor {
     reveal: Option<Reveal>,
     /// Tells documents apart.
     document: u64,
-    /// Whether Escape took the keys from it, and nobody has had them since.
+    /// Whether it gave the keys to the picture, and nobody has had them since.
     left: bool,
+    /// Whether it had the keys in the last frame.
+    had_keys: bool,
+    /// When something was to be said about the keys, in seconds of the window's clock.
+    told: Option<f64>,
+    /// Height of what stands below the text.
+    foot: f32,
 }
 
 fn id() -> Id {
@@ -114,6 +124,9 @@ impl Editor {
             if let Some(change) = chosen {
                 self.change(ui.ctx(), change, commands);
             }
+            if ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+                self.escape(ui.ctx());
+            }
             let selection = self.selected.clone();
             if let Some(change) = typing::take(ui, &self.buffer, &selection, session.preferences.tab_width) {
                 self.change(ui.ctx(), change, commands);
@@ -124,6 +137,41 @@ impl Editor {
         self.text(ui, session, commands);
     }
 
+    /// Takes away what is over the text. It never takes the keys from it: who goes on typing would give commands.
+    fn escape(&mut self, ctx: &Context) {
+        if self.find.open {
+            self.find.open = false;
+        } else if !self.selected.is_empty() {
+            let end = self.selected.end;
+            self.select(ctx, end..end);
+        } else {
+            self.told = Some(ctx.input(|i| i.time));
+        }
+    }
+
+    /// Whom the keys are for, and whether that is to be said aloud.
+    fn keys(&mut self, ui: &Ui, session: &Session) -> (foot::Keys, bool) {
+        let (ctx, now) = (ui.ctx(), ui.input(|i| i.time));
+        let keys = match (has_keys(ctx), ctx.egui_wants_keyboard_input()) {
+            (true, _) => foot::Keys::Text,
+            (false, true) => foot::Keys::Field,
+            (false, false) => foot::Keys::Picture,
+        };
+        let asked = session.dialog.is_some();
+        if self.had_keys && keys != foot::Keys::Text && !asked {
+            self.told = Some(now);
+        }
+        if keys == foot::Keys::Text && !self.had_keys {
+            self.told = None;
+        }
+        self.had_keys = keys == foot::Keys::Text || self.had_keys && asked;
+        let left = self.told.map_or(0.0, |told| told + ALOUD - now);
+        if left > 0.0 {
+            ui.ctx().request_repaint_after_secs(left as f32);
+        }
+        (keys, left > 0.0)
+    }
+
     /// From now on the keys are for this editor, with its cursor where it was.
     pub fn take_keys(&mut self, ctx: &Context, document: u64) {
         self.document = document;
@@ -131,11 +179,11 @@ impl Editor {
         self.select(ctx, self.selected.clone());
     }
 
-    /// In the text Tab means itself. Escape leaves it; then Tab goes on from here. For the beginning of a pass.
+    /// In the text Tab means itself. F6 leaves it; then Tab goes on from here. For the beginning of a pass.
     pub fn lead_on(&mut self, ctx: &Context) {
         let focused = ctx.memory(|m| m.focused());
         self.left &= focused.is_none();
-        if self.left && ctx.input(|i| i.key_pressed(egui::Key::Tab)) {
+        if self.left && ctx.input(|i| i.key_pressed(Key::Tab)) {
             self.left = false;
             ctx.memory_mut(|m| m.request_focus(id()));
         }
@@ -143,7 +191,7 @@ impl Editor {
 
     /// Whether Escape closes something here.
     pub fn takes_escape(&self, ctx: &Context) -> bool {
-        self.popup.is_some() && has_keys(ctx) || self.find.has_keys(ctx)
+        (self.popup.is_some() || self.find.open) && has_keys(ctx) || self.find.has_keys(ctx)
     }
 
     /// Takes over what has become of the text elsewhere.
@@ -187,6 +235,11 @@ impl Editor {
     fn act(&mut self, ctx: &Context, session: &Session, action: TextAction, commands: &mut Vec<Command>) {
         let selection = self.selected.clone();
         match action {
+            TextAction::Keys if has_keys(ctx) => {
+                ctx.memory_mut(|m| m.surrender_focus(id()));
+                self.left = true;
+            }
+            TextAction::Keys => self.reveal = Some(Reveal { range: selection, focus: true }),
             TextAction::Find | TextAction::Replace => {
                 self.find.open(action == TextAction::Replace, &self.buffer[selection]);
             }
@@ -243,7 +296,12 @@ impl Editor {
         let digits = (self.buffer.lines().count() + 1).to_string().len().max(2);
         let digit = ui.fonts_mut(|f| f.glyph_width(&font, '0'));
         let gutter_width = digits as f32 * digit + 26.0;
-        let all = ui.available_rect_before_wrap();
+        // Where the text has been edited since it was run, places are wrong.
+        let own = if session.text_waits() { Vec::new() } else { own_problems(session) };
+        let mut all = ui.available_rect_before_wrap();
+        let keys = self.keys(ui, session);
+        let whole = all;
+        all.max.y -= self.foot;
         let gutter = Rect::from_min_max(all.min, pos2(all.left() + gutter_width, all.bottom()));
         let area = Rect::from_min_max(pos2(gutter.right(), all.top()), all.max);
         let before = self.buffer.len();
@@ -266,7 +324,6 @@ impl Editor {
                 }
             }
         });
-        self.left |= output.response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape));
         let changed = output.response.changed();
         if changed {
             commands.push(Command::Edit(self.buffer.as_str().into()));
@@ -292,13 +349,17 @@ impl Editor {
         if let Some(pair) = cursor.and_then(|cursor| self.assist(session).brackets(cursor)) {
             page.brackets(ui, &pair);
         }
-        // Where the text has been edited since it was run, places are wrong.
-        let own = if session.text_waits() { Vec::new() } else { own_problems(session) };
         for (problem, place) in &own {
             page.underline(ui, problem, place);
         }
         page.line_messages(ui, &own);
         page.gutter(ui, gutter, &own, cursor_line);
+        if focus {
+            let edge = egui::Stroke::new(2.0, ui.visuals().hyperlink_color);
+            ui.painter().vline(gutter.left() + 1.0, gutter.y_range(), edge);
+        } else {
+            page.resting_cursor(ui, self.selected.end);
+        }
         let typed = changed && self.buffer.len() > before;
         self.completions(ui, session, &page, cursor, typed, commands);
         let over_text = output.response.hovered();
@@ -306,6 +367,7 @@ impl Editor {
             self.tooltips(ui, session, &page, gutter, &own);
         }
         self.tune(ui, &page, over_text, commands);
+        self.foot = foot::show(ui, whole, session, (&text, &self.selected), &own, keys, commands);
     }
 
     /// The field itself. Returns a place to draw behind the text.
@@ -331,9 +393,7 @@ impl Editor {
             ui.fonts_mut(|f| f.layout_job(job))
         };
         let buffer = &mut self.buffer;
-        // While a list is open Escape closes that.
-        let escape = self.popup.is_some();
-        let keys = EventFilter { tab: true, escape, horizontal_arrows: true, vertical_arrows: true };
+        let keys = EventFilter { tab: true, escape: true, horizontal_arrows: true, vertical_arrows: true };
         let inside = egui::UiBuilder::new().max_rect(area);
         ui.scope_builder(inside, |ui| {
             ScrollArea::both().id_salt(("program", self.document)).auto_shrink(Vec2b::FALSE).show(ui, |ui| {

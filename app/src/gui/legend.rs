@@ -17,9 +17,16 @@ const WIDTH: f32 = 148.0;
 const BAR: f32 = 168.0;
 const ROW: f32 = 17.0;
 
-/// Shows it in the lower right corner; with the value under the pointer, if it is over the mesh.
-pub fn show(ui: &mut Ui, rect: Rect, session: &Session, frame: &Shown, colors: Option<&Colors>, at: Option<Pointer>) {
-    let Some(colors) = colors else { return };
+/// Shows it in the lower right corner; with the value under the pointer, if it is over the mesh. Returns where it is.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    session: &Session,
+    frame: &Shown,
+    colors: Option<&Colors>,
+    at: Option<Pointer>,
+) -> Option<Rect> {
+    let colors = colors?;
     let title = session.document.annotations.color_by.title();
     let height = match colors {
         Ok(tint) => match &tint.field.kind {
@@ -31,12 +38,12 @@ pub fn show(ui: &mut Ui, rect: Rect, session: &Session, frame: &Shown, colors: O
     };
     let height = height + 2.0 * ROW + 36.0;
     if rect.height() < height + 40.0 || rect.width() < WIDTH + 120.0 {
-        return; // no room
+        return None; // no room
     }
     let under = at.and_then(|pointer| under(&pointer, frame, colors.as_ref().ok()?));
     let place =
         Rect::from_min_size(rect.right_bottom() - vec2(WIDTH + 34.0, height + 10.0), vec2(WIDTH + 24.0, height));
-    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+    let shown = ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
         Frame::NONE
             .fill(ui.visuals().window_fill.gamma_multiply(0.9))
             .stroke(ui.visuals().window_stroke)
@@ -52,6 +59,7 @@ pub fn show(ui: &mut Ui, rect: Rect, session: &Session, frame: &Shown, colors: O
                 }
             });
     });
+    Some(shown.response.rect)
 }
 
 fn line(ui: &mut Ui, text: RichText) {

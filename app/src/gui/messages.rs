@@ -156,6 +156,15 @@ fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<C
     ui.indent(("details", diagnostic.span, &diagnostic.message), |ui| details(ui, session, problem, commands));
 }
 
+/// A message without what nobody reads to the end: some hold the text they are about.
+pub fn in_short(message: &str) -> String {
+    const MOST: usize = 600;
+    match message.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{} …", &message[..end]),
+        None => message.to_owned(),
+    }
+}
+
 /// Evidence, hints and fixes; also in the editor's tooltip.
 pub fn details(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<Command>) {
     for (place, text) in &problem.labels {

@@ -107,7 +107,9 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let reached = session.reached();
     let wanted = session.document.generation;
+    let failed = session.halted();
     let last = reached.last_key_value().map_or(0, |(g, _)| *g).max(wanted).max(1);
+    let last = last.max(failed.map_or(0, |failed| failed.generation));
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::slider(true, wanted as f64, "Time line"));
     let visuals = ui.visuals().clone();
@@ -164,8 +166,20 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if let Some((_, Some(generation))) = session.progress() {
         painter.circle_stroke(pos2(at(generation.min(last)), y), 6.0, Stroke::new(1.5, visuals.warn_fg_color));
     }
+    // Where it failed.
+    if let Some(failed) = failed {
+        let (center, arm) = (pos2(at(failed.generation), y), 3.5);
+        painter.circle_filled(center, 6.0, visuals.panel_fill);
+        for across in [vec2(arm, arm), vec2(arm, -arm)] {
+            painter.line_segment([center - across, center + across], Stroke::new(2.0, visuals.error_fg_color));
+        }
+    }
+    // Full where we are, hollow where we would like to be.
     let handle = pos2(at(wanted), y);
-    painter.circle(handle, 6.5, accent, Stroke::new(2.0, visuals.panel_fill));
+    match session.stale() {
+        None => painter.circle(handle, 6.5, accent, Stroke::new(2.0, visuals.panel_fill)),
+        Some(_) => painter.circle(handle, 5.5, visuals.panel_fill, Stroke::new(2.0, accent)),
+    };
     let small = TextStyle::Small.resolve(ui.style());
     // As many numbers as there is room for.
     let every = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 10_000, 100_000]
@@ -198,6 +212,10 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         };
         let compared = session.document.annotations.color_by == Quantity::Since(generation);
         let text = if compared { format!("{text}; the one that is compared with") } else { text };
+        let text = match failed.filter(|failed| failed.generation == generation) {
+            Some(failed) => format!("generation {generation} failed: {}", super::messages::in_short(&failed.message)),
+            None => text,
+        };
         response.on_hover_text_at_pointer(text);
     }
 }

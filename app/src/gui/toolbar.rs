@@ -1,6 +1,6 @@
 //! Generations, the rule, and which panels are open.
 
-use eframe::egui::{ComboBox, DragValue, Ui};
+use eframe::egui::{ComboBox, DragValue, RichText, Ui};
 
 use super::widgets::{Icon, icon_button, named_icon_button, sides, tab, tooltip};
 use crate::command::{Command, Panel};
@@ -41,25 +41,44 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn generation(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let label = ui.label("Generation");
     let mut wanted = session.document.generation;
+    let shown = session.shown_generation();
+    let differs = session.frame().is_some() && session.stale().is_some() && shown != wanted;
     let field = DragValue::new(&mut wanted).range(0..=1_000_000).speed(0.05).update_while_editing(false);
-    let response = ui.add(field).labelled_by(label.id).on_hover_text("type or drag to go to a generation");
+    let hover = if differs {
+        format!("this is wanted; the picture is that of generation {shown}")
+    } else {
+        "type or drag to go to a generation".to_owned()
+    };
+    let response = ui.add(field).labelled_by(label.id).on_hover_text(hover);
     if response.changed() {
         commands.push(Command::GoTo(wanted));
+    }
+    if differs {
+        ui.label(RichText::new(format!("shown: {shown}")).small().color(ui.visuals().warn_fg_color));
     }
 }
 
 fn rule(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let Some(program) = session.program() else { return };
     let chosen = session.rule().unwrap_or("none");
     let label = ui.label("Rule");
-    let response = ComboBox::from_id_salt("rule").selected_text(chosen).width(110.0).show_ui(ui, |ui| {
-        for function in program.rules.iter().filter_map(|&r| program.function(r)) {
-            if ui.selectable_label(chosen == function.name, &function.name).clicked() {
-                commands.push(Command::ChooseRule(function.name.clone()));
+    let list = ComboBox::from_id_salt("rule").selected_text(chosen).width(110.0);
+    let response = ui.add_enabled_ui(session.can_step(), |ui| {
+        let response = list.show_ui(ui, |ui| {
+            let rules =
+                session.program().into_iter().flat_map(|program| program.rules.iter().map(move |&r| (program, r)));
+            for function in rules.filter_map(|(program, rule)| program.function(rule)) {
+                if ui.selectable_label(chosen == function.name, &function.name).clicked() {
+                    commands.push(Command::ChooseRule(function.name.clone()));
+                }
             }
-        }
+        });
+        response.response.labelled_by(label.id)
     });
-    response.response.labelled_by(label.id).on_hover_text("the function that a step applies");
+    let response = response.inner.on_hover_text("the function that a step applies");
+    response.on_disabled_hover_text(match session.program() {
+        Some(_) => "the program has no rule",
+        None => "the program has errors: its rules are not known",
+    });
 }
 
 /// Which panels are open.

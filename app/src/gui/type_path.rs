@@ -4,11 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::text::{CCursor, CCursorRange};
-use eframe::egui::{Button, EventFilter, Id, Key, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{Button, EventFilter, Id, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 
-use super::widgets;
+use super::{messages, widgets};
 use crate::command::Command;
-use crate::session::Purpose;
+use crate::session::{PathTrouble, Purpose};
 use crate::typed_path::{self, Entry};
 
 /// Rows of the list that are seen at once.
@@ -25,8 +25,14 @@ struct Listing {
     has_begun: bool,
 }
 
-/// Shows it in a dialog. Returns what was chosen.
-pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec<Command>) -> Option<PathBuf> {
+/// Shows it in a dialog. Returns, when a path was chosen, whether what is there may be replaced.
+pub fn show(
+    ui: &mut Ui,
+    purpose: Purpose,
+    path: &mut String,
+    trouble: Option<&(String, PathTrouble)>,
+    commands: &mut Vec<Command>,
+) -> Option<bool> {
     let (title, verb) = match purpose {
         Purpose::OpenProgram => ("Open program", "Open"),
         Purpose::OpenMesh => ("Open mesh", "Open"),
@@ -56,29 +62,39 @@ pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec
     let keys = EventFilter { tab: completion.is_some(), horizontal_arrows: true, ..EventFilter::default() };
     let field = TextEdit::singleline(path).id(id).hint_text("path").desired_width(f32::INFINITY).event_filter(keys);
     let response = ui.add(field).labelled_by(label.id);
-    let mut changed = completion.filter(|_| tab);
-    list(ui, &fitting, path, &mut changed);
-
     let typed = purpose.with_extension(typed_path::expand(path));
     let named = !path.trim().is_empty() && !path.ends_with('/');
+    let replaces = purpose.saves() && typed.exists();
+    let name = crate::document::file_name(&typed);
     let (possible, said) = match (named, purpose.saves()) {
         (false, _) => (false, None),
-        (true, true) if typed.is_dir() => (false, Some("This is a folder.")),
-        (true, true) if typed.exists() => (true, Some("This file exists and will be replaced.")),
+        (true, true) if typed.is_dir() => (false, Some("This is a folder.".to_owned())),
+        (true, true) if replaces => (true, Some(format!("{name} exists already."))),
         (true, true) => (true, None),
         (true, false) if typed.is_file() => (true, None),
         (true, false) if !fitting.is_empty() => (false, None),
-        (true, false) => (false, Some("There is no such file.")),
+        (true, false) => (false, Some("There is no such file.".to_owned())),
     };
-    match said {
-        Some(said) if possible => ui.label(RichText::new(said).color(ui.visuals().warn_fg_color)),
-        Some(said) => ui.label(RichText::new(said).weak()),
-        None => ui.label(" "),
+    let trouble = trouble.filter(|(of, _)| of == path).map(|(_, trouble)| trouble);
+    let asked = possible && trouble == Some(&PathTrouble::Exists);
+    let (warning, error) = (ui.visuals().warn_fg_color, ui.visuals().error_fg_color);
+    let said = match (trouble, said) {
+        (Some(PathTrouble::Failed(why)), _) => RichText::new(messages::in_short(why)).color(error),
+        (Some(PathTrouble::Exists), Some(said)) if possible => {
+            RichText::new(format!("{said} Press Enter again to replace it.")).color(warning).strong()
+        }
+        (_, Some(said)) if possible => RichText::new(said).color(warning),
+        (_, Some(said)) => RichText::new(said).weak(),
+        (_, None) => RichText::new(" "),
     };
+    ui.add(Label::new(said).wrap());
+    let mut changed = completion.filter(|_| tab);
+    list(ui, &fitting, path, &mut changed);
     ui.add_space(8.0);
     let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
     let mut go = false;
     ui.horizontal(|ui| {
+        let verb = if replaces && possible { "Replace" } else { verb };
         go = ui.add_enabled_ui(possible, |ui| ui.add(widgets::first_choice(ui, verb))).inner.clicked();
         if ui.button("Cancel").clicked() {
             commands.push(Command::CloseDialog);
@@ -91,12 +107,10 @@ pub fn show(ui: &mut Ui, purpose: Purpose, path: &mut String, commands: &mut Vec
             // The keys go to the field again, as at the beginning.
             ui.data_mut(|data| data.insert_temp(key(purpose), Listing { has_begun: false, ..listing.clone() }));
         }
-    } else if possible && (go || entered) {
-        return Some(typed);
     } else if entered {
-        response.request_focus();
+        response.request_focus(); // also for what fails: the dialog stays then
     }
-    None
+    (possible && (go || entered)).then_some(go || asked)
 }
 
 fn key(purpose: Purpose) -> Id {

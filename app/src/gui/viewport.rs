@@ -14,15 +14,20 @@ use vv::diagnostic::Severity;
 use super::overlay::Overlay;
 use super::picture::{Picture, Wardrobe};
 use super::widgets::{grouped, seconds};
-use super::{clicks, context, gizmo, labels, legend, marks, theme};
+use super::{clicks, context, gizmo, labels, legend, marks, messages, theme};
 use crate::command::{Command, ViewAction};
 use crate::render::{RenderError, Size};
 use crate::scene::{Style, Theme};
-use crate::session::{Session, Stale};
+use crate::session::{Origin, Session, Stale};
 use crate::trace;
 use crate::worker::Frame;
 
 use hands::Hands;
+
+/// Height of the sign that says why a picture is not what is wanted, with what is around it.
+const BADGE: f32 = 58.0;
+/// A message that has less width than this is put elsewhere.
+const LEAST_PILL: f32 = 220.0;
 
 /// The panel's own state.
 pub struct Viewport {
@@ -56,7 +61,7 @@ impl Viewport {
         let frame = session.frame().cloned();
         let Some(frame) = frame.filter(|frame| frame.mesh.vertex_count() > 0) else {
             empty::show(ui, rect, session, commands);
-            news(ui, rect, session);
+            news(ui, rect, session, None);
             return;
         };
         let style = Style { theme: theme_of(ui), up: session.navigation.up, ..session.document.style };
@@ -108,11 +113,11 @@ impl Viewport {
         self.context.show(&response, &inks, session, &frame, spread, commands);
         marks::show(ui, &inks, session, &frame);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
-        legend::show(ui, rect, session, &frame, colors.as_ref(), pointer);
+        let legend = legend::show(ui, rect, session, &frame, colors.as_ref(), pointer);
         if style.axes {
             gizmo::show(ui, rect, &camera);
         }
-        overlay(ui, rect, session, &frame);
+        overlay(ui, rect, session, &frame, legend);
     }
 }
 
@@ -127,17 +132,37 @@ fn theme_of(ui: &Ui) -> Theme {
 }
 
 /// What stands over the picture.
-fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
+fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame, legend: Option<Rect>) {
     let visuals = ui.visuals().clone();
-    if let Some(stale) = session.stale() {
-        let (color, title, text) = match stale {
-            Stale::Failed(message) => (visuals.error_fg_color, "stale: last good result", message.as_str()),
-            Stale::Stopped => (visuals.warn_fg_color, "stale: stopped", "what is wanted was not computed"),
-        };
-        badge(ui, rect, color, title, text);
+    let generation = frame.request.generation;
+    match (session.stale(), session.halted()) {
+        (Some(Stale::Failed(message)), halted) => {
+            let name = crate::document::file_name(&frame.request.recipe.path);
+            let title = match (session.origin(), halted) {
+                (Origin::Mesh, _) => "nothing computed: the mesh as read".to_owned(),
+                (Origin::Former, _) => format!("stale: generation {generation} of {name}"),
+                (Origin::This, Some(halted)) => {
+                    format!("stale: last good result; generation {} failed", halted.generation)
+                }
+                (Origin::This, None) => "stale: last good result".to_owned(),
+            };
+            badge(ui, rect, visuals.error_fg_color, &title, message);
+        }
+        (Some(Stale::Stopped), _) => {
+            badge(ui, rect, visuals.warn_fg_color, "stale: stopped", "what is wanted was not computed");
+        }
+        (None, Some(halted)) => {
+            badge(
+                ui,
+                rect,
+                visuals.error_fg_color,
+                &format!("generation {} failed", halted.generation),
+                &halted.message,
+            );
+        }
+        (None, None) => {}
     }
     let s = &frame.statistics;
-    let generation = frame.request.generation;
     let summary = format!(
         "generation\u{a0}{generation}   {}\u{a0}vertices   {}\u{a0}edges   {}\u{a0}faces",
         grouped(s.vertices),
@@ -147,68 +172,75 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame) {
     let small = TextStyle::Small.resolve(ui.style());
     let galley = ui.painter().layout(summary, small, visuals.weak_text_color(), (rect.width() - 20.0).max(60.0));
     ui.painter().galley(rect.left_bottom() + vec2(10.0, -8.0 - galley.size().y), galley, visuals.weak_text_color());
-    news(ui, rect, session);
+    news(ui, rect, session, legend);
 }
 
 /// What is going on, and what has just happened.
-fn news(ui: &Ui, rect: Rect, session: &Session) {
+fn news(ui: &Ui, rect: Rect, session: &Session, legend: Option<Rect>) {
     let visuals = ui.visuals().clone();
     // What is done at once needs no announcement.
     if let Some((elapsed, generation)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
         let what = generation.map_or("reading".to_owned(), |g| format!("computing generation {g}"));
         let text = format!("{what}, {} …", seconds(elapsed));
-        pill(ui, rect.right_top() + vec2(-10.0, 10.0), Align2::RIGHT_TOP, &text, visuals.hyperlink_color);
+        // Below what is said at the upper edge, if that leaves no room beside it.
+        let below = if session.stale().is_some() || session.halted().is_some() { BADGE } else { 0.0 };
+        let at = rect.right_top() + vec2(-10.0, 10.0 + below);
+        pill(ui, at, Align2::RIGHT_TOP, rect.width() - 20.0, &text, visuals.hyperlink_color);
     }
     if let Some((severity, text)) = session.notice() {
         let color = match severity {
             Severity::Note => visuals.text_color(),
             other => theme::severity(&visuals, other),
         };
-        pill(ui, rect.center_bottom() + vec2(0.0, -32.0), Align2::CENTER_BOTTOM, text, color);
+        // Beside what the colours mean, or above it where there is no room.
+        let right = legend.map_or(rect.right(), |legend| legend.left());
+        let width = right - rect.left() - 20.0;
+        if legend.is_none() || width >= LEAST_PILL {
+            let at = pos2((rect.left() + right) / 2.0, rect.bottom() - 32.0);
+            pill(ui, at, Align2::CENTER_BOTTOM, width, text, color);
+        } else {
+            let at = rect.center_top() + vec2(0.0, 10.0 + BADGE);
+            pill(ui, at, Align2::CENTER_TOP, rect.width() - 20.0, text, color);
+        }
     }
 }
 
-/// A sign at the upper edge that cannot be overlooked.
+/// A sign that cannot be overlooked, in the corner, where it covers least of the surface.
 fn badge(ui: &mut Ui, rect: Rect, color: Color32, title: &str, text: &str) {
-    let most = (rect.width() - 68.0).clamp(60.0, 520.0);
-    let body = TextStyle::Body.resolve(ui.style());
+    let padding = Margin::symmetric(10, 5);
+    let most = (rect.width() - 20.0 - padding.sum().x).clamp(60.0, 380.0);
+    let small = TextStyle::Small.resolve(ui.style());
+    let text = messages::in_short(text);
     // As wide as the text, if there is room.
-    let wanted = [title, text].map(|t| ui.painter().layout_no_wrap(t.to_owned(), body.clone(), color).size().x);
-    let width = (wanted[0].max(wanted[1]) + 1.0).min(most);
-    let padding = Margin::symmetric(14, 8);
-    let outer = vec2(width + padding.sum().x + 3.0, rect.height() - 24.0);
-    let min = pos2(rect.center().x - outer.x / 2.0, rect.top() + 12.0);
-    let builder = egui::UiBuilder::new().max_rect(Rect::from_min_size(min, outer));
-    ui.scope_builder(builder, |ui| {
+    let wanted = [title, &text].map(|t| ui.painter().layout_no_wrap(t.to_owned(), small.clone(), color).size().x);
+    let width = (wanted[0].max(wanted[1]) + 2.0).min(most);
+    let place = Rect::from_min_size(rect.left_top() + vec2(10.0, 10.0), vec2(width + padding.sum().x + 3.0, BADGE));
+    let shown = ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
         egui::Frame::NONE
-            .fill(ui.visuals().window_fill)
-            .stroke(egui::Stroke::new(1.5, color))
+            .fill(ui.visuals().window_fill.gamma_multiply(0.94))
+            .stroke(egui::Stroke::new(1.0, color))
             .corner_radius(CornerRadius::same(7))
             .inner_margin(padding)
             .show(ui, |ui| {
                 ui.set_width(width);
-                ui.vertical_centered(|ui| {
-                    ui.spacing_mut().item_spacing.y = 2.0;
-                    ui.label(egui::RichText::new(title).color(color).strong());
-                    ui.label(few_lines(ui, text, width));
-                });
+                ui.spacing_mut().item_spacing.y = 1.0;
+                ui.label(egui::RichText::new(title).small().color(color).strong());
+                let mut job = egui::text::LayoutJob::simple(text.clone(), small, ui.visuals().text_color(), width);
+                job.wrap.max_rows = 2;
+                ui.label(job);
             });
     });
+    shown.response.on_hover_text(text);
 }
 
-/// The text, cut where it would cover the picture; the problems below show all of it.
-fn few_lines(ui: &Ui, text: &str, width: f32) -> egui::text::LayoutJob {
-    let font = TextStyle::Body.resolve(ui.style());
-    let mut job = egui::text::LayoutJob::simple(text.to_owned(), font, ui.visuals().text_color(), width);
-    job.wrap.max_rows = 4;
-    job.halign = egui::Align::Center;
-    job
-}
-
-fn pill(ui: &Ui, at: Pos2, align: Align2, text: &str, color: Color32) {
-    let most = (ui.clip_rect().width() - 56.0).max(80.0);
-    let galley = ui.painter().layout(text.to_owned(), TextStyle::Body.resolve(ui.style()), color, most);
+/// A short message, in a few lines of at most `width`.
+fn pill(ui: &Ui, at: Pos2, align: Align2, width: f32, text: &str, color: Color32) {
     let padding = vec2(12.0, 5.0);
+    let most = (width - 2.0 * padding.x).max(80.0);
+    let font = TextStyle::Body.resolve(ui.style());
+    let mut job = egui::text::LayoutJob::simple(messages::in_short(text), font, color, most);
+    job.wrap.max_rows = 4;
+    let galley = ui.painter().layout_job(job);
     let rect = align.anchor_size(at, galley.size() + 2.0 * padding);
     ui.painter().rect(
         rect,

@@ -102,6 +102,7 @@ impl Session {
         // What is computed already is seen at once.
         other.frame.clone_from(&self.frame);
         other.program.clone_from(&self.program);
+        (other.frame_of, other.program_of) = (self.frame_of.map(|_| 0), 0);
         other.flight.clone_from(&self.flight);
         self.beside = Some(Beside { other: Box::new(other), right: true, views_linked: true, steps_linked: true });
         self.switch();

@@ -75,6 +75,15 @@ impl Purpose {
     }
 }
 
+/// Why a path that was chosen is asked for again.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum PathTrouble {
+    /// What is there would be replaced.
+    Exists,
+    /// It did not work.
+    Failed(String),
+}
+
 /// A question to the user.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Dialog {
@@ -91,6 +100,8 @@ pub enum Dialog {
         path: String,
         /// What comes after.
         then: Option<Box<Command>>,
+        /// What is to be said of a path that was chosen, as long as it is the one that is typed.
+        trouble: Option<(String, PathTrouble)>,
     },
     /// A window crashed; bring back what was unsaved in it?
     Recover {
@@ -130,6 +141,12 @@ pub enum Dialog {
 }
 
 impl Dialog {
+    /// Asks for a path.
+    #[must_use]
+    pub fn path(purpose: Purpose, path: impl Into<String>, then: Option<Box<Command>>) -> Self {
+        Self::TypePath { purpose, path: path.into(), then, trouble: None }
+    }
+
     /// The gallery, as it opens.
     #[must_use]
     pub fn gallery() -> Self {

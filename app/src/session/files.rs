@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use vv::diagnostic::Severity;
 use vv::io::Format;
 
-use super::{Dialog, Purpose, Session};
+use super::{Dialog, PathTrouble, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::project::{self, Project};
@@ -19,6 +19,14 @@ const STYLE_NAME: &str = "style.json";
 
 /// A file dialog that is gone sooner than this was never there.
 const NO_DIALOG: Duration = Duration::from_millis(1000);
+
+/// Something that is done on another thread.
+pub(super) struct Work {
+    /// What it has to say at its end.
+    result: Receiver<Result<String, String>>,
+    /// The path that was typed for it, to be asked for again if it fails.
+    typed: Option<(Purpose, String)>,
+}
 
 /// A file dialog that is open.
 pub(super) struct Chooser {
@@ -55,9 +63,18 @@ impl Session {
             }
             Command::UseMesh(source) => self.use_mesh(source),
             Command::Save => self.save(),
-            Command::SaveTo(path) => self.save_to(&path),
-            Command::ExportTo(path) => self.export_to(path),
-            Command::PictureTo(path) => self.picture_to(path),
+            Command::SaveTo(path) => {
+                let done = self.save_to(&path);
+                self.tell(&path, done);
+            }
+            Command::ExportTo(path) => {
+                let done = self.export_to(&path);
+                self.tell(&path, done);
+            }
+            Command::PictureTo(path) => {
+                let done = self.picture_to(&path);
+                self.tell(&path, done);
+            }
             Command::TakeFromDisk => {
                 if let Some(text) = self.text_on_disk.take() {
                     self.document.program.saved = Arc::clone(&text);
@@ -131,16 +148,31 @@ impl Session {
         let project = self.project_path().map(Path::to_owned);
         match (program.path.clone(), project) {
             (None, None) => self.choose(Purpose::SaveProgram),
-            (None, Some(project)) => self.save_project(&project),
-            (Some(path), None) => self.save_to(&path),
+            (None, Some(project)) => {
+                let done = self.save_project(&project);
+                self.tell(&project, done);
+            }
+            (Some(path), None) => {
+                let done = self.save_to(&path);
+                self.tell(&path, done);
+            }
             (Some(path), Some(project)) => {
                 if program.is_modified() || self.is_orphan() {
-                    self.save_to(&path);
+                    let done = self.save_to(&path);
+                    self.tell(&path, done);
                 }
                 if !self.document.program.is_modified() {
-                    self.save_project(&project);
+                    let done = self.save_project(&project);
+                    self.tell(&project, done);
                 }
             }
+        }
+    }
+
+    /// Says what has gone wrong with a file.
+    pub(super) fn tell(&mut self, path: &Path, done: Result<(), String>) {
+        if let Err(why) = done {
+            self.say(Severity::Error, format!("{}: {why}", path.display()));
         }
     }
 
@@ -203,27 +235,24 @@ impl Session {
         self.ask_now();
     }
 
-    pub(super) fn save_to(&mut self, path: &Path) {
+    pub(super) fn save_to(&mut self, path: &Path) -> Result<(), String> {
         let text = Arc::clone(&self.document.program.text);
-        match files::write(path, text.as_bytes()) {
-            Ok(()) => {
-                let program = &mut self.document.program;
-                let moved = program.path.as_deref() != Some(path);
-                program.path = Some(path.to_owned());
-                program.name = crate::document::file_name(path);
-                program.saved = text;
-                self.text_on_disk = None;
-                self.program_gone = false;
-                self.text_was_saved();
-                self.remember(path);
-                self.ask_now();
-                if moved {
-                    self.watch_files(); // includes are looked for elsewhere now
-                }
-                self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
-            }
-            Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
+        files::write(path, text.as_bytes()).map_err(|error| error.diagnostic.message.clone())?;
+        let program = &mut self.document.program;
+        let moved = program.path.as_deref() != Some(path);
+        program.path = Some(path.to_owned());
+        program.name = crate::document::file_name(path);
+        program.saved = text;
+        self.text_on_disk = None;
+        self.program_gone = false;
+        self.text_was_saved();
+        self.remember(path);
+        self.ask_now();
+        if moved {
+            self.watch_files(); // includes are looked for elsewhere now
         }
+        self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
+        Ok(())
     }
 
     pub(super) fn open_project(&mut self, path: &Path) {
@@ -239,29 +268,22 @@ impl Session {
         }
     }
 
-    fn save_project(&mut self, path: &Path) {
+    fn save_project(&mut self, path: &Path) -> Result<(), String> {
         let folder = std::path::absolute(path).ok().and_then(|path| path.parent().map(Path::to_owned));
         let bytes = Project::of(&self.document).to_json(folder.as_deref());
-        let written =
-            bytes.and_then(|bytes| files::write(path, &bytes).map_err(|error| error.diagnostic.message.clone()));
-        match written {
-            Ok(()) => {
-                self.set_project(path);
-                self.remember(path);
-                self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
-            }
-            Err(error) => self.say(Severity::Error, format!("{}: {error}", path.display())),
-        }
+        files::write(path, &bytes?).map_err(|error| error.diagnostic.message.clone())?;
+        self.set_project(path);
+        self.remember(path);
+        self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
+        Ok(())
     }
 
-    pub(super) fn export_to(&mut self, path: PathBuf) {
-        let Some(frame) = self.frame.clone() else { return };
+    pub(super) fn export_to(&mut self, path: &Path) -> Result<(), String> {
+        let frame = self.frame.clone().ok_or("there is no mesh yet")?;
         let format = path.extension().and_then(|e| Format::from_extension(&e.to_string_lossy()));
-        let Some(format) = format else {
-            let extensions = files::mesh_extensions("or");
-            self.say(Severity::Error, format!("the name of a mesh ends in {extensions}"));
-            return;
-        };
+        let format = format.ok_or_else(|| format!("the name of a mesh ends in {}", files::mesh_extensions("or")))?;
+        files::check_writable(path).map_err(|error| error.diagnostic.message.clone())?;
+        let path = path.to_owned();
         self.in_background(move || {
             let bytes = vv::io::write(&frame.mesh, &frame.faces, format).map_err(|problem| problem.to_string())?;
             match files::write(&path, &bytes) {
@@ -269,6 +291,7 @@ impl Session {
                 Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
             }
         });
+        Ok(())
     }
 
     pub(super) fn in_background(&mut self, work: impl FnOnce() -> Result<String, String> + Send + 'static) {
@@ -278,23 +301,28 @@ impl Session {
             let _ = sender.send(work());
             wake();
         });
-        self.background.push(receiver);
+        self.background.push(Work { result: receiver, typed: self.typed.clone() });
     }
 
     pub(super) fn take_background(&mut self) {
         let mut said = Vec::new();
-        self.background.retain(|receiver| match receiver.try_recv() {
+        self.background.retain(|work| match work.result.try_recv() {
             Ok(result) => {
-                said.push(result);
+                said.push((result, work.typed.clone()));
                 false
             }
             Err(mpsc::TryRecvError::Empty) => true,
             Err(mpsc::TryRecvError::Disconnected) => false,
         });
-        for result in said {
-            match result {
-                Ok(text) => self.say(Severity::Note, text),
-                Err(text) => self.say(Severity::Error, text),
+        for (result, typed) in said {
+            match (result, typed) {
+                (Ok(text), _) => self.say(Severity::Note, text),
+                (Err(why), Some((purpose, path))) if self.dialog.is_none() => {
+                    self.notice = None; // that it is being written
+                    let trouble = Some((path.clone(), PathTrouble::Failed(why)));
+                    self.dialog = Some(Dialog::TypePath { purpose, path, then: None, trouble });
+                }
+                (Err(why), _) => self.say(Severity::Error, why),
             }
         }
     }
@@ -375,7 +403,7 @@ impl Session {
             Some(Dialog::Unsaved { then }) => Some(then),
             _ => None,
         };
-        self.dialog = Some(Dialog::TypePath { purpose, path, then });
+        self.dialog = Some(Dialog::path(purpose, path, then));
     }
 
     /// Does with a path what it was chosen for.
@@ -385,27 +413,55 @@ impl Session {
             _ => None,
         };
         let path = purpose.with_extension(path);
+        let done = self.use_path(purpose, &path, then);
+        self.tell(&path, done);
+    }
+
+    /// Does with the path that is typed what it is asked for. If that fails the dialog stays, and says why; and if it would
+    /// replace something, unless that is `wanted`.
+    pub fn path_typed(&mut self, wanted: bool) {
+        let Some(asked @ Dialog::TypePath { .. }) = self.dialog.take() else { return };
+        let Dialog::TypePath { purpose, path: text, then, .. } = asked.clone() else { return };
+        let path = purpose.with_extension(typed_path::expand(&text));
+        let done = if purpose.saves() && !wanted && path.exists() {
+            Err(PathTrouble::Exists)
+        } else {
+            self.typed = Some((purpose, text.clone()));
+            let done = self.use_path(purpose, &path, then.map(|then| *then));
+            self.typed = None;
+            done.map_err(PathTrouble::Failed)
+        };
+        if let (Err(why), Dialog::TypePath { purpose, path, then, .. }) = (done, asked) {
+            self.dialog = Some(Dialog::TypePath { purpose, path, then, trouble: Some((text, why)) });
+        }
+    }
+
+    fn use_path(&mut self, purpose: Purpose, path: &Path, then: Option<Command>) -> Result<(), String> {
+        if !purpose.saves() {
+            files::check_readable(path).map_err(|error| error.diagnostic.message.clone())?;
+        }
         match purpose {
             // What a file is its name says, whatever was asked for.
-            Purpose::OpenProgram | Purpose::OpenMesh if is_program(&path) || is_project(&path) || is_mesh(&path) => {
-                self.carry_out(Command::Open(path));
+            Purpose::OpenProgram | Purpose::OpenMesh if is_program(path) || is_project(path) || is_mesh(path) => {
+                self.apply(Command::Open(path.to_owned()));
             }
-            Purpose::OpenProgram => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_program(&path)),
-            Purpose::OpenMesh => self.use_mesh(MeshSource::File(path)),
+            Purpose::OpenProgram => self.unless_unsaved(Command::Open(path.to_owned()), |s| s.open_program(path)),
+            Purpose::OpenMesh => self.apply(Command::UseMesh(MeshSource::File(path.to_owned()))),
             Purpose::SaveProgram => {
-                self.save_to(&path);
+                self.save_to(path)?;
                 if let Some(then) = then.filter(|_| !self.document.program.is_modified()) {
                     self.carry_out(then);
                 }
             }
-            Purpose::ExportMesh => self.export_to(path),
-            Purpose::OpenProject => self.unless_unsaved(Command::Open(path.clone()), |s| s.open_project(&path)),
-            Purpose::SaveProject => self.save_project(&path),
-            Purpose::SavePicture => self.picture_to(path),
-            Purpose::SaveMask => self.mask_to(&path),
-            Purpose::OpenStyle => self.open_style(&path),
-            Purpose::SaveStyle => self.save_style(&path),
+            Purpose::ExportMesh => self.export_to(path)?,
+            Purpose::OpenProject => self.unless_unsaved(Command::Open(path.to_owned()), |s| s.open_project(path)),
+            Purpose::SaveProject => self.save_project(path)?,
+            Purpose::SavePicture => self.picture_to(path)?,
+            Purpose::SaveMask => self.mask_to(path)?,
+            Purpose::OpenStyle => self.open_style(path)?,
+            Purpose::SaveStyle => self.save_style(path)?,
         }
+        Ok(())
     }
 
     pub(super) fn watch_files(&mut self) {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use vv::diagnostic::Severity;
 use vv::engine::FailureKind;
 
-use super::{GRACE, Running, Session, Stale};
+use super::{GRACE, Halted, Running, Session, Stale};
 use crate::command::Command;
 use crate::worker::{Event, Failed, Frame, Recipe, Report, Request, release};
 
@@ -54,6 +54,7 @@ impl Session {
             Some(request) if *request.recipe == *running.request.recipe => {
                 self.document.generation = request.generation;
                 self.stale = None;
+                self.forget_vain_change();
             }
             _ => self.stale = Some(Stale::Stopped),
         }
@@ -144,8 +145,9 @@ impl Session {
         self.due = None;
         self.running = None; // drops the ticket: the old work stops
         let ticket = self.worker.submit(request.clone());
-        self.stopped = None;
-        self.running = Some(Running { ticket, request, since: Instant::now(), stepping: None });
+        (self.stopped, self.halted) = (None, None);
+        let (since, of) = (Instant::now(), self.programs());
+        self.running = Some(Running { ticket, request, since, stepping: None, of });
     }
 
     pub(super) fn take_report(&mut self, report: Report) {
@@ -153,14 +155,19 @@ impl Session {
         if !running.ticket.issued(&report) {
             return;
         }
-        let request = running.request.clone();
+        let (request, of) = (running.request.clone(), running.of);
         match report.event {
             Event::Compiled { compilation, files } => {
                 self.problems.compiled(&compilation);
                 self.inspection.fault = None;
                 if let Some(program) = &compilation.program {
                     self.program = Some(Arc::clone(program));
+                    self.program_of = of;
                     self.included.clear();
+                } else if self.program_of != of {
+                    // Rules, parameters and generations of the program before are not those of this one.
+                    (self.program, self.program_of) = (None, of);
+                    self.worker.forget();
                 }
                 // Files of the last program that compiled stay watched: the error may be that one of them is gone.
                 self.included.extend(files);
@@ -169,27 +176,28 @@ impl Session {
             }
             Event::MeshRead { diagnostics } => self.problems.mesh_read(&request.recipe.mesh.name(), diagnostics),
             Event::Stepping(generation) => running.stepping = Some(generation),
-            Event::Preview(frame) => self.show(frame),
+            Event::Preview(frame) => self.show(frame, None),
             Event::Finished(frame) => {
                 self.problems.ran(&frame.warnings, &Arc::default(), frame.request.generation);
                 self.inspection.fault = None;
-                self.show(frame);
+                self.show(frame, Some(of));
                 self.stale = None;
                 self.running = None;
             }
             Event::Failed(failed) => {
                 self.running = None;
-                self.failed(failed);
+                self.failed(failed, &request);
             }
         }
     }
 
-    fn show(&mut self, frame: Arc<Frame>) {
+    fn show(&mut self, frame: Arc<Frame>, of: Option<u64>) {
         release(self.frame.replace(frame));
+        self.frame_of = of;
         self.follow();
     }
 
-    fn failed(&mut self, failed: Failed) {
+    fn failed(&mut self, failed: Failed, request: &Request) {
         self.playing = None;
         if let FailureKind::Stopped(_) = failed.kind {
             self.stale = Some(Stale::Stopped);
@@ -205,6 +213,20 @@ impl Session {
             },
             None => "the program failed".to_owned(),
         };
-        self.stale = Some(Stale::Failed(message));
+        if failed.diagnostic.is_some() {
+            self.halted = Some(Halted { generation: failed.generation, message: message.clone() });
+        }
+        let shown = self.frame.as_ref().filter(|_| self.frame_of.is_some()).map(|frame| &frame.request);
+        match shown {
+            // A step has failed: what is shown is a good result, of a generation before.
+            Some(shown) if *shown.recipe == *request.recipe => {
+                if self.document.generation == request.generation && self.due.is_none() {
+                    self.document.generation = shown.generation;
+                    self.forget_vain_change();
+                }
+                self.stale = None;
+            }
+            _ => self.stale = Some(Stale::Failed(message)),
+        }
     }
 }

@@ -6,6 +6,7 @@ use std::sync::{Arc, PoisonError};
 
 use super::Session;
 use super::coloring::drawn;
+use crate::annotate::Annotations;
 use crate::command::Command;
 use crate::document::ProgramText;
 use crate::figure::Notes;
@@ -14,9 +15,21 @@ use crate::preferences::{Background, PictureOptions};
 use crate::render::{self, Size};
 use crate::scene::{Style, Theme};
 use crate::style_file::StyleFile;
-use crate::{figure, files, gallery, library, typed_path};
+use crate::{figure, files, gallery, library, style_file, typed_path};
 use vv::diagnostic::Severity;
 use vv::stop::Stop;
+
+/// Of a picture that is asked for before there is one.
+const NO_PICTURE: &str = "there is no picture yet";
+
+/// How things are seen, as a style file says all of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Look {
+    style: Style,
+    annotations: Annotations,
+    /// What the file says of figures.
+    file: StyleFile,
+}
 
 impl Session {
     /// A program that ships with vv as the gallery shows it.
@@ -63,12 +76,12 @@ impl Session {
     }
 
     /// Writes a figure of lines and areas.
-    fn figure_to(&mut self, path: PathBuf, format: figure::Format) {
-        let Some(frame) = self.frame.clone() else { return };
+    fn figure_to(&mut self, path: PathBuf, format: figure::Format) -> Result<(), String> {
+        let frame = self.frame.clone().ok_or(NO_PICTURE)?;
         let (size, camera) = (self.picture_size(&self.preferences.picture), self.document.camera);
         let style = self.view.map_or(self.document.style, |(_, style)| style);
         let (annotations, notes) = (self.document.annotations.clone(), self.notes());
-        let name = crate::document::file_name(&path);
+        let (name, settings) = (crate::document::file_name(&path), self.figure_settings());
         self.say(Severity::Note, format!("drawing {name} …"));
         self.in_background(move || {
             let failed = |problem: String| format!("{}: {problem}", path.display());
@@ -76,7 +89,6 @@ impl Session {
             let tint = frame.colors.colors(&annotations.color_by).and_then(Result::ok);
             let (mesh, faces) = (&frame.mesh, &frame.faces);
             let subject = figure::Subject { scene: &frame.scene, mesh, faces, tint: tint.as_deref(), notes: &notes };
-            let settings = figure::Settings::default();
             let drawing = figure::draw(subject, &camera, size.aspect(), &style, &settings, &Stop::new());
             let drawing = drawing.map_err(|stopped| failed(stopped.to_string()))?;
             let drawing = drawing.ok_or_else(|| failed("nothing of the mesh is seen".to_owned()))?;
@@ -85,18 +97,26 @@ impl Session {
             let saved = format!("saved {}", typed_path::shown(&path));
             Ok(if drawing.is_exact { saved } else { format!("{saved}: {}", figure::ROUGH) })
         });
+        Ok(())
     }
 
-    pub(super) fn picture_to(&mut self, path: PathBuf) {
+    /// How figures are drawn: as the style file says that was loaded last.
+    pub(super) fn figure_settings(&self) -> figure::Settings {
+        self.style_file.figures().unwrap_or_default() // it was read before
+    }
+
+    pub(super) fn picture_to(&mut self, path: &Path) -> Result<(), String> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
-        if let Some(format) = figure::Format::from_extension(&extension) {
+        let format = figure::Format::from_extension(&extension);
+        if format.is_none() && !extension.eq_ignore_ascii_case("png") {
+            return Err("the name of a picture ends in .png, .svg, .eps or .pdf".to_owned());
+        }
+        files::check_writable(path).map_err(|error| error.diagnostic.message.clone())?;
+        let path = path.to_owned();
+        if let Some(format) = format {
             return self.figure_to(path, format);
         }
-        if !extension.eq_ignore_ascii_case("png") {
-            self.say(Severity::Error, "the name of a picture ends in .png, .svg, .eps or .pdf");
-            return;
-        }
-        let Some(frame) = self.frame.clone() else { return };
+        let frame = self.frame.clone().ok_or(NO_PICTURE)?;
         let options = self.preferences.picture;
         let (size, camera) = (self.picture_size(&options), self.document.camera);
         let seen = self.view.map_or(self.document.style, |(_, style)| style);
@@ -120,31 +140,53 @@ impl Session {
             files::write(&path, &bytes.into_inner()).map_err(|e| failed(e.diagnostic.message.clone()))?;
             Ok(format!("saved {}, {} × {} pixels", typed_path::shown(&path), size.width, size.height))
         });
+        Ok(())
     }
 
     /// Writes how things are seen, for other meshes and for the command line.
-    pub(super) fn save_style(&mut self, path: &Path) {
+    pub(super) fn save_style(&mut self, path: &Path) -> Result<(), String> {
         let style = self.view.map_or(self.document.style, |(_, style)| style);
         let annotations = self.document.annotations.clone();
         let file = StyleFile { style, annotations, ..self.style_file.clone() };
         let name = crate::document::file_name(path);
-        match file.write(path) {
-            Ok(()) => self.say(Severity::Note, format!("saved {name}; `vv run --style {name}` draws so")),
-            Err(error) => self.say(Severity::Error, error.located().message),
-        }
+        file.write(path).map_err(|error| error.diagnostic.message.clone())?;
+        self.say(Severity::Note, format!("saved {name}; `vv run --style {name}` draws so"));
+        Ok(())
     }
 
     /// Shows things as a file says, but for what belongs to the window: its colours, and that it is not transparent.
-    pub(super) fn open_style(&mut self, path: &Path) {
-        match StyleFile::read(path) {
-            Ok((file, _)) => {
-                let Style { theme, transparent, .. } = self.document.style;
-                self.apply(Command::SetStyle(Style { theme, transparent, ..file.style }));
-                self.apply(Command::SetAnnotations(file.annotations.clone()));
-                self.style_file = file;
-            }
-            Err(error) => self.say(Severity::Error, error.located().message),
-        }
+    pub(super) fn open_style(&mut self, path: &Path) -> Result<(), String> {
+        let located = |place: Option<vv::io::Place>, message: String| match place {
+            Some(vv::io::Place::Text { line, .. }) => format!("line {line}: {message}"),
+            _ => message,
+        };
+        let (file, text) =
+            StyleFile::read(path).map_err(|error| located(error.place, error.diagnostic.message.clone()))?;
+        file.figures().map_err(|misfit| {
+            let names: Vec<&str> = misfit.names.iter().map(String::as_str).collect();
+            located(style_file::place_of(&text, &names), misfit.message)
+        })?;
+        let before = self.look();
+        let Style { theme, transparent, .. } = self.document.style;
+        let style = Style { theme, transparent, ..file.style };
+        self.set_look(Look { style, annotations: file.annotations.clone(), file });
+        self.record_look(before);
+        self.say(Severity::Note, format!("shown as {} says", crate::document::file_name(path)));
+        Ok(())
+    }
+
+    /// How things are seen.
+    pub(super) fn look(&self) -> Look {
+        let (style, annotations) = (self.document.style, self.document.annotations.clone());
+        Look { style, annotations, file: self.style_file.clone() }
+    }
+
+    /// From now on things are seen so.
+    pub(super) fn set_look(&mut self, look: Look) {
+        let Look { style, annotations, file } = look;
+        self.carry_out(Command::SetStyle(style));
+        self.carry_out(Command::SetAnnotations(annotations));
+        self.style_file = file;
     }
 
     /// The picture as it is in the viewport.

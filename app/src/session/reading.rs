@@ -6,7 +6,7 @@ use std::sync::{Arc, MutexGuard};
 use vv::diagnostic::Severity;
 use vv::ir::Program;
 
-use super::{Problems, Session, Stale};
+use super::{Halted, Origin, Problems, Session, Stale};
 use crate::console::Console;
 use crate::worker::{Frame, Reached};
 
@@ -21,6 +21,22 @@ impl Session {
     #[must_use]
     pub fn stale(&self) -> Option<&Stale> {
         self.stale.as_ref()
+    }
+
+    /// The step that was tried last, if it failed. [`Session::frame`] is then as good as before, of another generation.
+    #[must_use]
+    pub fn halted(&self) -> Option<&Halted> {
+        self.halted.as_ref()
+    }
+
+    /// Where [`Session::frame`] comes from.
+    #[must_use]
+    pub fn origin(&self) -> Origin {
+        match self.frame_of {
+            Some(of) if of == self.programs() => Origin::This,
+            Some(_) => Origin::Former,
+            None => Origin::Mesh,
+        }
     }
 
     /// The generations that were reached, with what is known of them.
@@ -95,7 +111,10 @@ impl Session {
     pub fn console_generation(&self) -> u64 {
         match &self.running {
             Some(running) => running.request.generation,
-            None => self.stopped.unwrap_or(self.document.generation),
+            None => {
+                let halted = self.halted.as_ref().map(|halted| halted.generation);
+                self.stopped.or(halted).unwrap_or(self.document.generation)
+            }
         }
     }
 

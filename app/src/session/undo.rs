@@ -1,8 +1,9 @@
 //! What was before, so that it can be again.
 //!
-//! Two tracks: the text, and all else that is computed from (mesh, rule, parameters, generation). In the editor only the
-//! text is undone, elsewhere whatever was changed last. They touch nothing in common, so one can be undone past the other.
-//! How things are drawn is nobody's work and is not undone.
+//! Three tracks: the text; all else that is computed from (mesh, rule, parameters, generation); and the look that a style
+//! file has taken the place of. In the editor only the text is undone, elsewhere whatever was changed last. They touch
+//! nothing in common, so one can be undone past the other. To switch edges on and off is nobody's work and is not undone;
+//! a style file changes so much at once that it is.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,6 +13,7 @@ use std::time::{Duration, Instant};
 use vv::mesh::Value;
 
 use super::Session;
+use super::pictures::Look;
 use crate::command::Command;
 use crate::document::MeshSource;
 
@@ -38,6 +40,7 @@ pub(super) struct State {
 pub(super) struct History {
     text: Track<Arc<str>>,
     state: Track<State>,
+    look: Track<Look>,
     /// Counts what is done and undone.
     clock: u64,
     /// Counts programs: another one begins afresh.
@@ -166,6 +169,20 @@ impl Session {
         }
     }
 
+    /// Remembers how things were seen before a style file came.
+    pub(super) fn record_look(&mut self, before: Look) {
+        if before != self.look() {
+            let time = self.tick();
+            self.history.look.record(time, Kind::Other, |_| false, before);
+        }
+    }
+
+    /// Forgets the last change if nothing came of it: the way on that failed or was stopped is none to come back from.
+    pub(super) fn forget_vain_change(&mut self) {
+        let now = self.state();
+        self.history.state.past.pop_if(|(_, before)| *before == now);
+    }
+
     fn tick(&mut self) -> u64 {
         self.history.clock += 1;
         self.history.clock
@@ -174,20 +191,28 @@ impl Session {
     /// Whether there is something to undo.
     #[must_use]
     pub fn can_undo(&self) -> bool {
-        !self.history.text.past.is_empty() || !self.history.state.past.is_empty()
+        let history = &self.history;
+        !history.text.past.is_empty() || !history.state.past.is_empty() || !history.look.past.is_empty()
     }
 
     /// Whether something was undone.
     #[must_use]
     pub fn can_redo(&self) -> bool {
-        !self.history.text.future.is_empty() || !self.history.state.future.is_empty()
+        let history = &self.history;
+        !history.text.future.is_empty() || !history.state.future.is_empty() || !history.look.future.is_empty()
     }
 
     pub(super) fn undo(&mut self) {
         let time = |track: Option<u64>| track.unwrap_or(0);
         let text = time(self.history.text.past.last().map(|e| e.0));
         let state = time(self.history.state.past.last().map(|e| e.0));
-        if text > state {
+        let look = time(self.history.look.past.last().map(|e| e.0));
+        if look > text.max(state) {
+            let (now, time) = (self.look(), self.tick());
+            if let Some(before) = self.history.look.undo(time, || now) {
+                self.set_look(before);
+            }
+        } else if text > state {
             self.undo_text(false);
         } else {
             let (now, time) = (self.state(), self.tick());
@@ -202,7 +227,13 @@ impl Session {
         let time = |track: Option<u64>| track.unwrap_or(0);
         let text = time(self.history.text.future.last().map(|e| e.0));
         let state = time(self.history.state.future.last().map(|e| e.0));
-        if text > state {
+        let look = time(self.history.look.future.last().map(|e| e.0));
+        if look > text.max(state) {
+            let now = self.look();
+            if let Some(after) = self.history.look.redo(|| now) {
+                self.set_look(after);
+            }
+        } else if text > state {
             self.redo_text(false);
         } else {
             let now = self.state();

@@ -71,24 +71,26 @@ impl Of {
 
 impl Session {
     /// Draws the mask of the selected vertex into a file, alone on a page.
-    pub(super) fn mask_to(&mut self, path: &Path) {
+    pub(super) fn mask_to(&mut self, path: &Path) -> Result<(), String> {
         let (MaskState::Found(mask), Some(frame)) = (self.mask(), self.frame.clone()) else {
-            return self.say(Severity::Error, "no mask is shown");
+            return Err("no mask is shown".to_owned());
         };
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         let (Some(format), Some(old)) = (figure::Format::from_extension(&extension), &frame.before) else {
-            return self.say(Severity::Error, "the name of a figure ends in .svg, .eps or .pdf");
+            return Err("the name of a figure ends in .svg, .eps or .pdf".to_owned());
         };
         let weights: Vec<(Vertex, f64)> = mask.weights().map(|(v, group)| (v, group.weight)).collect();
-        let settings = Settings { page: Page { width: PAGE, height: None }, ..Settings::default() };
+        let asked = self.figure_settings();
+        // A mask is a small thing, unless a style says how large.
+        let page = if self.style_file.page.is_some() { asked.page } else { Page { width: PAGE, height: None } };
+        let settings = Settings { page, ..asked };
         let sketch = Some(figure::mask_on(old, &weights, settings.letters));
         let Some(drawing) = figure::sheet(vec![Tile { sketch, caption: String::new() }], Some(1), &settings) else {
-            return self.say(Severity::Error, "nothing of the mask is seen");
+            return Err("nothing of the mask is seen".to_owned());
         };
-        match files::write(path, &figure::write(&drawing, format)) {
-            Ok(()) => self.say(Severity::Note, format!("saved {}", typed_path::shown(path))),
-            Err(error) => self.say(Severity::Error, error.located().message),
-        }
+        files::write(path, &figure::write(&drawing, format)).map_err(|error| error.diagnostic.message.clone())?;
+        self.say(Severity::Note, format!("saved {}", typed_path::shown(path)));
+        Ok(())
     }
 
     /// The mask of the vertex that is selected.

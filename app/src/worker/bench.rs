@@ -137,13 +137,14 @@ impl Bench {
     fn serve(&mut self, ticket: u64, request: &Request, stop: &Stop) -> Result<Arc<Frame>, Failed> {
         let recipe = &request.recipe;
         self.compile(recipe);
-        self.read(recipe, stop)?;
-        let (Some(compiled), Some(input)) = (&self.compiled, &self.input) else {
-            return Err(Failed::said_before(FailureKind::Program, request.generation));
-        };
+        let said_before = || Failed::said_before(FailureKind::Program, request.generation);
+        let compiled = self.compiled.as_ref().ok_or_else(said_before)?;
         let (compilation, files) = (compiled.compilation.clone(), compiled.files.clone());
         let machine = compiled.machine.clone();
+        // Before the mesh, which may be large: what the program is need not wait for it.
         self.report(ticket, Event::Compiled { compilation, files });
+        self.read(recipe, stop)?;
+        let input = self.input.as_ref().ok_or_else(said_before)?;
         self.report(ticket, Event::MeshRead { diagnostics: input.diagnostics.clone() });
         let Some(mesh) = input.mesh.clone() else {
             return Err(Failed::said_before(FailureKind::Program, 0));
@@ -223,6 +224,9 @@ impl Bench {
         stop: &Stop,
     ) -> Result<Arc<Frame>, Failed> {
         let recipe = &request.recipe;
+        if self.shared.forgotten.swap(false, Ordering::Relaxed) {
+            self.history = None;
+        }
         let mut history = match self.history.take() {
             Some(history) if history.recipe == *recipe => history,
             _ => {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use app::figure::{self, Format, Page, Settings, Sketch, Tile};
+use app::figure::{self, Format, Page, Settings, Sketch, Tile, paper};
 use app::files;
 use clap::Args;
 use glam::DVec2;
@@ -12,7 +12,7 @@ use vv::mesh::{Mesh, Vertex};
 use vv::source::Sources;
 
 use super::super::report::Reporter;
-use super::super::{Exit, error, fail, input, output, paper, picture};
+use super::super::{Exit, error, fail, input, output, picture};
 
 /// Most masks on a page.
 const MOST: usize = 64;

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use eframe::egui::text::CCursor;
+use eframe::egui::text::{CCursor, LayoutJob, TextWrapping};
 use eframe::egui::{
     Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, TextStyle, Ui, pos2,
 };
 use vv::assist::number_at;
 use vv::diagnostic::Severity;
 
-use super::super::theme;
+use super::super::{messages, theme};
 use crate::session::{Place, Problem};
 
 /// The text as it stands on the screen.
@@ -123,20 +123,38 @@ impl Page<'_> {
         wave(&ui.painter().with_clip_rect(self.clip), rect, color);
     }
 
-    /// The worst message of each line, after its end.
+    /// Where the cursor will be when the text has the keys again.
+    pub fn resting_cursor(&self, ui: &Ui, byte: usize) {
+        let rect = self.rect_of(&(byte..byte));
+        let stroke = Stroke::new(1.0, ui.visuals().weak_text_color());
+        ui.painter().with_clip_rect(self.clip).vline(rect.left(), rect.y_range(), stroke);
+    }
+
+    /// The worst message of each line, after its end, as far as there is room. Pointing at it shows all of it.
     pub fn line_messages(&self, ui: &Ui, problems: &[(&Problem, &Place)]) {
         let painter = ui.painter().with_clip_rect(self.clip);
         let font = TextStyle::Small.resolve(ui.style());
         for row in rows_with_problems(problems) {
             let Some((problem, _)) = worst(problems, row) else { continue };
-            let Some(rect) = self.row_rect(row as usize - 1) else { continue };
+            let Some(rect) = self.message_rect(row) else { continue };
             if problem.diagnostic.severity < Severity::Warning {
                 continue;
             }
             let color = theme::severity(ui.visuals(), problem.diagnostic.severity).gamma_multiply(0.85);
-            let at = pos2(rect.right() + 22.0, rect.center().y);
-            painter.text(at, Align2::LEFT_CENTER, &problem.diagnostic.message, font.clone(), color);
+            let said = messages::in_short(&problem.diagnostic.message);
+            let mut job = LayoutJob::simple(said, font.clone(), color, rect.width());
+            job.wrap = TextWrapping::truncate_at_width(rect.width());
+            let galley = painter.layout_job(job);
+            painter.galley(pos2(rect.left(), rect.center().y - galley.size().y / 2.0), galley, color);
         }
+    }
+
+    /// The room behind a line; `None` if there is none that is worth it.
+    fn message_rect(&self, line: u32) -> Option<Rect> {
+        const LEAST: f32 = 48.0;
+        let row = self.row_rect((line as usize).checked_sub(1)?)?;
+        let rect = Rect::from_min_max(pos2(row.right() + 22.0, row.top()), pos2(self.clip.right() - 8.0, row.bottom()));
+        (rect.width() >= LEAST && self.clip.y_range().contains(rect.center().y)).then_some(rect)
     }
 
     /// The numbers of the lines, those with problems marked.
@@ -173,7 +191,12 @@ impl Page<'_> {
             return worst(problems, row as u32 + 1).map(|(problem, _)| problem);
         }
         let near = |place: &Place| self.clip.contains(pos) && self.rect_of(&place.range).expand(1.0).contains(pos);
-        problems.iter().find(|(_, place)| near(place)).map(|(problem, _)| *problem)
+        let under = problems.iter().find(|(_, place)| near(place));
+        under.map(|(problem, _)| *problem).or_else(|| {
+            let mut lines = rows_with_problems(problems).into_iter();
+            let line = lines.find(|&line| self.message_rect(line).is_some_and(|rect| rect.contains(pos)))?;
+            worst(problems, line).map(|(problem, _)| problem)
+        })
     }
 }
 

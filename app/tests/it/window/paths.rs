@@ -4,7 +4,7 @@ use super::*;
 use app::session::{Dialog, Purpose};
 
 fn ask(window: &mut Harness<'static, App>, purpose: Purpose, path: &str) {
-    window.state_mut().session_mut().dialog = Some(Dialog::TypePath { purpose, path: path.to_owned(), then: None });
+    window.state_mut().session_mut().dialog = Some(Dialog::path(purpose, path, None));
     window.run_steps(4);
 }
 
@@ -91,10 +91,86 @@ fn a_text_without_a_file_is_saved_before_the_window_closes() {
     write(&mut window, PROGRAM);
     let path = format!("{path}mine.vv");
     let then = Some(Box::new(Command::Quit));
-    window.state_mut().session_mut().dialog =
-        Some(Dialog::TypePath { purpose: Purpose::SaveProgram, path: path.clone(), then });
+    window.state_mut().session_mut().dialog = Some(Dialog::path(Purpose::SaveProgram, path.clone(), then));
     window.run_steps(4);
     press(&mut window, Key::Enter);
     assert_eq!(std::fs::read_to_string(path).unwrap(), PROGRAM);
     assert!(window.state().session().wants_quit());
+}
+
+/// What the dialog says of the path.
+#[track_caller]
+fn says(window: &Harness<'static, App>, part: &str) {
+    assert!(window.query_by_label_contains(part).is_some(), "{:?}", window.state().session().dialog);
+}
+
+#[test]
+fn a_path_that_cannot_be_written_stays_with_the_reason_beside_it() {
+    let (_folder, path) = folder();
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    let tries = [
+        (Purpose::SaveProgram, "no/mine.vv", "there is no directory"),
+        (Purpose::ExportMesh, "no/mine.obj", "there is no directory"),
+        (Purpose::ExportMesh, "mine.xyz", "the name of a mesh ends in"),
+        (Purpose::SavePicture, "no/mine.png", "there is no directory"),
+        (Purpose::SavePicture, "mine.bmp", "the name of a picture ends in"),
+        (Purpose::SaveStyle, "no/mine.json", "there is no directory"),
+        (Purpose::SaveProject, "no/mine.vvp", "there is no directory"),
+        (Purpose::OpenStyle, "notes.txt", "EOF while parsing"),
+    ];
+    for (purpose, name, why) in tries {
+        let asked = format!("{path}{name}");
+        ask(&mut window, purpose, &asked);
+        press(&mut window, Key::Enter);
+        assert_eq!(typed(&window), asked);
+        says(&window, why);
+        // The field has the keys, and what is typed on makes a path of its own.
+        type_on(&mut window, "x");
+        assert_ne!(typed(&window), asked);
+        assert!(window.query_by_label_contains(why).is_none(), "{why} is of another path");
+        window.state_mut().apply(Command::CloseDialog);
+        window.run_steps(2);
+    }
+}
+
+#[test]
+fn a_path_whose_file_cannot_be_finished_is_asked_for_again() {
+    let mut window = octahedron();
+    if !Path::new("/dev/full").exists() {
+        return; // a device of Linux
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("full.obj");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("/dev/full", &path).unwrap();
+    ask(&mut window, Purpose::ExportMesh, &path.display().to_string());
+    press(&mut window, Key::Enter);
+    press(&mut window, Key::Enter);
+    until(&mut window, "it has failed", |s| s.dialog.is_some());
+    window.run_steps(3);
+    assert_eq!(typed(&window), path.display().to_string());
+    says(&window, "no space is left on the device");
+}
+
+#[test]
+fn a_file_that_is_there_is_replaced_only_when_asked_for_twice_or_by_its_button() {
+    let (_folder, path) = folder();
+    let file = format!("{path}mine.vv");
+    let content = || std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, "// old").unwrap();
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    ask(&mut window, Purpose::SaveProgram, &file);
+    says(&window, "mine.vv exists already.");
+    press(&mut window, Key::Enter);
+    assert_eq!(content(), "// old");
+    says(&window, "Press Enter again to replace it.");
+    press(&mut window, Key::Enter);
+    assert_eq!((content().as_str(), &window.state().session().dialog), (PROGRAM, &None));
+    let other = format!("{path}other.vv");
+    std::fs::write(&other, "// old").unwrap();
+    ask(&mut window, Purpose::SaveProgram, &other);
+    click(&mut window, "Replace");
+    assert_eq!(std::fs::read_to_string(other).unwrap(), PROGRAM);
 }

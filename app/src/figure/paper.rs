@@ -1,13 +1,15 @@
-//! `--page`, `--line`, `--fade` and `--font-size`: what figures are like.
+//! What figures are like, as options of the command line and style files say it: `85x60mm`, `inner=0.3,#888`.
 
-use app::figure::{Class, Dash, Line, Page, Settings};
-
-use super::closest;
+use super::{Class, Dash, Line, Page, Settings};
+use crate::alike::closest;
 
 /// Millimetres that a figure may be wide or high: some metres.
 const MOST: f64 = 5000.0;
 
 /// Reads a width, perhaps with a height.
+///
+/// # Errors
+/// What such a text looks like.
 pub fn page(text: &str) -> Result<Page, String> {
     let wrong = || "a page is a width in millimetres such as 85mm, or width and height such as 85x60mm".to_owned();
     let number = |text: &str| text.trim().trim_end_matches("mm").trim_end().parse().ok();
@@ -20,18 +22,27 @@ pub fn page(text: &str) -> Result<Page, String> {
 }
 
 /// Reads how much lighter lines far away are.
+///
+/// # Errors
+/// What such a text looks like.
 pub fn fade(text: &str) -> Result<f64, String> {
     let amount = text.parse().ok().filter(|x| (0.0..=1.0).contains(x));
     amount.ok_or_else(|| "lines fade by a number from 0 to 1".to_owned())
 }
 
 /// Reads a height of letters in points.
+///
+/// # Errors
+/// What such a text looks like.
 pub fn letters(text: &str) -> Result<f64, String> {
     let points = text.strip_suffix("pt").unwrap_or(text).parse().ok().filter(|x| (1.0..=200.0).contains(x));
     points.ok_or_else(|| "the height of letters is in points, from 1 to 200".to_owned())
 }
 
-/// Reads a class of lines and how they look.
+/// Reads a class of lines and how they look; `None` leaves them out.
+///
+/// # Errors
+/// What such a text looks like.
 pub fn line(text: &str) -> Result<(Class, Option<Line>), String> {
     let (name, look) = text.split_once('=').unwrap_or((text, ""));
     let names = Class::ALL.map(Class::name);
@@ -63,6 +74,9 @@ pub fn line(text: &str) -> Result<(Class, Option<Line>), String> {
 }
 
 /// Reads the colour behind pictures.
+///
+/// # Errors
+/// What such a text looks like.
 pub fn background(text: &str) -> Result<[u8; 3], String> {
     match text {
         "white" => Ok([255; 3]),

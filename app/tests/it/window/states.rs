@@ -1,0 +1,238 @@
+//! What is shown is true: whose the keys are, which program made the picture, at which generation it stands, what failed.
+
+use super::*;
+use app::session::{Origin, Purpose};
+
+fn type_text(window: &mut Harness<'static, App>, text: &str) {
+    // Where the keys go, as for one who types.
+    for letter in text.chars() {
+        let key = Key::from_name(&letter.to_uppercase().to_string()).unwrap_or(Key::Space);
+        window.event(egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        });
+        window.event(egui::Event::Text(letter.to_string()));
+        window.step();
+    }
+    window.run_steps(2);
+}
+
+fn text<'w>(window: &'w Harness<'static, App>) -> &'w str {
+    &window.state().session().document.program.text
+}
+
+fn has_keys(window: &Harness<'static, App>) -> bool {
+    window.get_by_label("Program text").is_focused()
+}
+
+#[test]
+fn escape_never_takes_the_keys_from_the_text() {
+    let mut window = octahedron();
+    write(&mut window, "// ");
+    for _ in 0..3 {
+        press(&mut window, Key::Escape);
+    }
+    let (style, generation) = (window.state().session().document.style, 0);
+    type_text(&mut window, "for");
+    assert_eq!(text(&window), "// for");
+    let document = &window.state().session().document;
+    assert_eq!((document.style, document.generation), (style, generation), "letters were no commands");
+    assert!(!window.state().session().render_options);
+}
+
+#[test]
+fn escape_takes_away_what_is_over_the_text_one_after_the_other() {
+    let mut window = octahedron();
+    write(&mut window, "// one two\n");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    window.get_by_label("Program text").focus();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(2);
+    press(&mut window, Key::Escape);
+    assert!(window.query_by_label("Find in program").is_none(), "the search first");
+    press(&mut window, Key::Escape);
+    type_text(&mut window, "x");
+    assert_eq!(text(&window), "// one two\nx", "then what was selected");
+}
+
+#[test]
+fn one_key_gives_the_keys_to_the_picture_and_back_and_it_is_said_whose_they_are() {
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    window.get_by_label("F6: keys to the picture");
+    window.key_press(Key::F6);
+    window.run_steps(3);
+    assert!(!has_keys(&window));
+    window.get_by_label("letters are commands · F6: type here");
+    press(&mut window, Key::S);
+    assert_eq!((window.state().session().document.generation, text(&window)), (1, PROGRAM));
+    window.key_press(Key::F6);
+    window.run_steps(3);
+    assert!(has_keys(&window));
+    type_text(&mut window, "s");
+    assert_eq!(text(&window), format!("{PROGRAM}s"), "where the cursor was");
+    window.get_by_label("line 4, column 2");
+}
+
+#[test]
+fn the_problem_of_the_line_with_the_cursor_is_said_whole_below_the_text_and_mended_there() {
+    let mut window = octahedron();
+    write(&mut window, "void f(mesh& S) { }\nvoid g(mesh& S) { forall vertex p in S { } }");
+    let problem = window.state().session().problems().first_error().unwrap().diagnostic.clone();
+    window.get_by_label("line 2, column 45");
+    let foot = window.get_by_label("line 2, column 45").rect().top();
+    let below = |node: &egui_kittest::Node<'_>| node.rect().top() > foot - 90.0 && node.rect().bottom() <= foot + 1.0;
+    let all: Vec<_> = window.get_all_by_label(&problem.message).filter(|n| below(n)).map(|n| n.rect()).collect();
+    assert_eq!(all.len(), 1, "{} at {all:?}", problem.message);
+    let fix = window.get_all_by_label("Fix").find(|n| below(n)).unwrap();
+    fix.click();
+    settle(&mut window);
+    assert!(text(&window).contains("forall p in S"), "{}", text(&window));
+}
+
+#[test]
+fn a_step_that_fails_leaves_generation_and_time_line_where_the_picture_is() {
+    let mut window = octahedron();
+    write(&mut window, "void f(mesh& S) { forall v in S { if (v$pos.x > 1.5) print(1 / 0); v$pos *= 2.0; } }\n");
+    click(&mut window, "Step");
+    assert_eq!((window.state().session().document.generation, size(&window)), (1, 2.0));
+    click(&mut window, "Step");
+    let session = window.state().session();
+    assert_eq!((session.document.generation, session.shown_generation(), size(&window)), (1, 1, 2.0));
+    assert_eq!(session.stale(), None, "what is shown is as good as before");
+    assert_eq!(session.halted().unwrap().generation, 2);
+    window.get_by_label("generation 2 failed");
+    let line = window.get_by_label("Time line");
+    assert_eq!(line.accesskit_node().numeric_value(), Some(1.0));
+    // Nothing came of it, so nothing of it is to be undone.
+    window.state_mut().apply(Command::Undo);
+    settle(&mut window);
+    assert_eq!(window.state().session().document.generation, 0);
+    assert_eq!(window.state().session().halted(), None);
+    assert!(window.query_by_label("generation 2 failed").is_none());
+}
+
+#[test]
+fn while_a_changed_text_fails_it_is_said_which_generation_is_seen_and_which_is_wanted() {
+    let mut window = octahedron();
+    write(&mut window, "void f(mesh& S) { forall v in S v$pos *= 2.0; }\n");
+    press_outside(&mut window, Key::Num2);
+    write(&mut window, "void f(mesh& S) { print(1 / 0); }\n");
+    let session = window.state().session();
+    assert_eq!((session.document.generation, session.shown_generation()), (2, 2), "mended, it goes on from there");
+    assert_eq!((session.origin(), session.halted().unwrap().generation), (Origin::This, 1));
+    window.get_by_label("stale: last good result; generation 1 failed");
+    window.state_mut().apply(Command::GoTo(3));
+    settle(&mut window);
+    window.get_by_label("shown: 2");
+    write(&mut window, "void f(mesh& S) { forall v in S v$pos *= 2.0; }\n");
+    assert_eq!((window.state().session().shown_generation(), size(&window)), (3, 8.0));
+    assert!(window.query_by_label("shown: 2").is_none());
+}
+
+#[test]
+fn a_program_that_does_not_compile_has_no_rules_or_generations_of_the_one_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("broken.vv");
+    std::fs::write(&path, "void f(mesh& S) {").unwrap();
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    press_outside(&mut window, Key::Num2);
+    window.state_mut().apply(Command::SaveTo(folder.path().join("good.vv")));
+    settle(&mut window);
+    window.state_mut().apply(Command::Open(path));
+    settle(&mut window);
+    let session = window.state().session();
+    assert_eq!((session.program().is_none(), session.rule()), (true, None));
+    assert_eq!(session.reached().len(), 0);
+    assert_eq!((session.origin(), session.console().len(9)), (Origin::Former, 0));
+    assert!(window.query_by_label("w").is_none(), "no parameters");
+    assert!(window.get_by_label("Step").accesskit_node().is_disabled());
+    window.get_by_label("stale: generation 2 of good.vv");
+    // What was computed for the one before is not mistaken for this one's.
+    let mended = "void grow(mesh& S) { print(\"again\"); forall v in S v$pos *= 2.0; }\n";
+    write(&mut window, mended);
+    assert_eq!((window.state().session().origin(), window.state().session().rule()), (Origin::This, Some("grow")));
+    assert_eq!(window.state().session().console().len(9), 2);
+}
+
+#[test]
+fn while_a_text_is_typed_rules_and_parameters_of_the_last_good_one_stay() {
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    write(&mut window, &PROGRAM.replace("grow(mesh& S)", "grow(mesh& S"));
+    assert!(window.state().session().stale().is_some());
+    assert_eq!(window.state().session().rule(), Some("grow"));
+    window.get_by_role_and_label(Role::Slider, "w");
+}
+
+#[test]
+fn messages_and_signs_leave_the_legend_and_the_surface_free() {
+    for size in [egui::vec2(1280.0, 720.0), egui::vec2(900.0, 600.0)] {
+        let mut window = octahedron();
+        window.set_size(size);
+        window.state_mut().apply(Command::ColorBy(app::annotate::Quantity::Valence));
+        settle(&mut window);
+        window.run_steps(3);
+        let legend = window.get_by_label("valence").rect();
+        let before = window.render().unwrap();
+        window
+            .state_mut()
+            .session_mut()
+            .warn("something long that is said of a file and goes over more than one line ".repeat(2));
+        window.run_steps(2);
+        let after = window.render().unwrap();
+        let in_legend = |x: u32, y: u32| {
+            let p = egui::pos2(x as f32, y as f32);
+            p.x >= legend.left() - 8.0 && p.y >= legend.top() - 4.0 && p.x < size.x - 300.0
+        };
+        let changed = before.enumerate_pixels().filter(|(x, y, p)| in_legend(*x, *y) && *p != after.get_pixel(*x, *y));
+        assert_eq!(changed.count(), 0, "{size}");
+    }
+}
+
+#[test]
+fn a_style_that_is_loaded_is_one_step_to_undo_and_figures_go_by_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(
+        path("look.json"),
+        r##"{ "style": { "smooth": true, "edges": true }, "annotations": { "color_by": "valence" },
+              "page": "50mm", "lines": { "outline": "2,#ff0000" } }"##,
+    )
+    .unwrap();
+    let mut window = octahedron();
+    let before = window.state().session().document.clone();
+    window.state_mut().apply(Command::Smooth); // nobody's work
+    window.state_mut().apply(Command::Smooth);
+    window.state_mut().session_mut().chosen(Purpose::OpenStyle, path("look.json"));
+    settle(&mut window);
+    let styled = window.state().session().document.clone();
+    assert!(styled.style.smooth && styled.annotations != before.annotations);
+    let figure = |window: &mut Harness<'static, App>, name: &str| {
+        window.state_mut().apply(Command::PictureTo(path(name)));
+        until(window, "it is saved", |s| s.notice().is_some_and(|(_, text)| text.starts_with("saved ")));
+        std::fs::read_to_string(path(name)).unwrap()
+    };
+    let written = figure(&mut window, "styled.svg");
+    assert!(written.contains("width=\"50mm\"") && written.contains("#f00"), "{written}");
+    window.state_mut().apply(Command::Undo);
+    settle(&mut window);
+    let document = &window.state().session().document;
+    assert_eq!((document.style, &document.annotations), (before.style, &before.annotations));
+    let written = figure(&mut window, "plain.svg");
+    assert!(!written.contains("width=\"50mm\"") && !written.contains("#f00"));
+    window.state_mut().apply(Command::Redo);
+    settle(&mut window);
+    assert_eq!(window.state().session().document, styled);
+    std::fs::write(path("wrong.json"), "{\n  \"page\": \"wide\"\n}").unwrap();
+    window.state_mut().session_mut().chosen(Purpose::OpenStyle, path("wrong.json"));
+    let (_, said) = window.state().session().notice().unwrap();
+    assert!(said.contains("wrong.json: line 2: a page is a width"), "{said}");
+    assert_eq!(window.state().session().document, styled);
+}
