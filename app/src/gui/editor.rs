@@ -299,7 +299,6 @@ impl Editor {
         // Where the text has been edited since it was run, places are wrong.
         let own = if session.text_waits() { Vec::new() } else { own_problems(session) };
         let mut all = ui.available_rect_before_wrap();
-        let keys = self.keys(ui, session);
         let whole = all;
         all.max.y -= self.foot;
         let gutter = Rect::from_min_max(all.min, pos2(all.left() + gutter_width, all.bottom()));
@@ -367,6 +366,7 @@ impl Editor {
             self.tooltips(ui, session, &page, gutter, &own);
         }
         self.tune(ui, &page, over_text, commands);
+        let keys = self.keys(ui, session);
         self.foot = foot::show(ui, whole, session, (&text, &self.selected), &own, keys, commands);
     }
 

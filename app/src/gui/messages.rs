@@ -129,7 +129,7 @@ fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<C
     text.append("●", 0.0, format(color));
     text.append(&place, 6.0, format(ui.visuals().weak_text_color()));
     let space = if place.is_empty() { 6.0 } else { 0.0 };
-    text.append(&diagnostic.message, space, format(ui.visuals().text_color()));
+    text.append(&in_short(&diagnostic.message), space, format(ui.visuals().text_color()));
     let response = ui.add(Label::new(text).sense(Sense::click()).selectable(false));
     let response = response.on_hover_cursor(egui::CursorIcon::PointingHand);
     response.context_menu(|ui| {
@@ -156,13 +156,21 @@ fn entry(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Vec<C
     ui.indent(("details", diagnostic.span, &diagnostic.message), |ui| details(ui, session, problem, commands));
 }
 
-/// A message without what nobody reads to the end: some hold the text they are about.
+/// A message as it is shown: names that nobody reads to the end, and files that are one line, are cut. Copied, it is whole.
 pub fn in_short(message: &str) -> String {
+    const WORD: usize = 60;
     const MOST: usize = 600;
-    match message.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{} …", &message[..end]),
-        None => message.to_owned(),
-    }
+    let cut = |text: &str, most: usize, rest: usize| match text.char_indices().nth(most + rest) {
+        Some(_) => {
+            let at = |n: usize| text.char_indices().nth(n).map_or(text.len(), |(at, _)| at);
+            let end = text.char_indices().rev().nth(rest.saturating_sub(1)).map_or(text.len(), |(at, _)| at);
+            format!("{}…{}", &text[..at(most)], if rest == 0 { "" } else { &text[end..] })
+        }
+        None => text.to_owned(),
+    };
+    // With the sign behind it, which may be a back quote.
+    let words: Vec<String> = message.split(' ').map(|word| cut(word, WORD, 2)).collect();
+    cut(&words.join(" "), MOST, 0)
 }
 
 /// Evidence, hints and fixes; also in the editor's tooltip.
@@ -203,4 +211,19 @@ fn vertices(ui: &mut Ui, session: &Session, problem: &Problem, commands: &mut Ve
         text += &format!(" and {} more", all.len() - SHOWN);
     }
     text_with_vertices(ui, session, commands, &text, problem.generation);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_names_and_long_messages_are_cut() {
+        assert_eq!(in_short("unknown name `w`, did you mean `v`?"), "unknown name `w`, did you mean `v`?");
+        assert_eq!(
+            in_short(&format!("unknown name `{}`", "ä".repeat(5000))),
+            format!("unknown name `{}…ä`", "ä".repeat(59))
+        );
+        assert_eq!(in_short(&"many words ".repeat(500)).chars().count(), 601);
+    }
 }

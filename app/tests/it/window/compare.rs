@@ -123,7 +123,8 @@ fn the_wheel_zooms_where_the_pointer_is_and_pressing_gives_the_keys() {
     settle_both(&mut window);
     assert_eq!((this(&window).0, other(&window).0), ("loop.vv".to_owned(), "butterfly.vv".to_owned()));
     assert!(window.get_by_label("Program text").value().unwrap().contains("Loop"));
-    press(&mut window, Key::F6);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F6);
+    settle(&mut window);
     assert_eq!(this(&window).0, "butterfly.vv");
 }
 
@@ -250,16 +251,19 @@ fn each_document_has_a_cursor_and_an_undo_of_its_own() {
     window.step();
     window.get_by_label("Program text").type_text("1");
     settle_both(&mut window);
-    press(&mut window, Key::F6);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F6);
+    settle(&mut window);
     window.key_press_modifiers(ctrl, Key::Home);
     window.step();
     window.get_by_label("Program text").type_text("2");
     settle_both(&mut window);
-    press(&mut window, Key::F6);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F6);
+    settle(&mut window);
     window.get_by_label("Program text").type_text("3");
     settle_both(&mut window);
     assert_eq!(field(&window), format!("{}13", originals[0]));
-    press(&mut window, Key::F6);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F6);
+    settle(&mut window);
     window.get_by_label("Program text").type_text("4");
     settle_both(&mut window);
     assert_eq!(field(&window), format!("24{}", originals[1]));
@@ -272,6 +276,7 @@ fn each_document_has_a_cursor_and_an_undo_of_its_own() {
         }
     }
     assert_eq!(field(&window), originals[1]);
-    press(&mut window, Key::F6);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F6);
+    settle(&mut window);
     assert_eq!(field(&window), format!("{}13", originals[0]));
 }

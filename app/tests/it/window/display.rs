@@ -169,6 +169,6 @@ fn a_style_is_saved_and_loaded_into_another_session() {
     let before = second.document.style;
     std::fs::write(&path, "{\n \"style\": {\"egdes\": true}}").unwrap();
     second.chosen(Purpose::OpenStyle, path);
-    assert!(second.notice().is_some_and(|(_, text)| text.ends_with("mine:2:12: nothing is called `egdes` here")));
+    assert!(second.notice().is_some_and(|(_, text)| text.ends_with("mine: line 2: nothing is called `egdes` here")));
     assert_eq!(second.document.style, before);
 }
