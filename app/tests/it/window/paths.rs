@@ -117,7 +117,7 @@ fn a_path_that_cannot_be_written_stays_with_the_reason_beside_it() {
         (Purpose::SavePicture, "mine.bmp", "the name of a picture ends in"),
         (Purpose::SaveStyle, "no/mine.json", "there is no directory"),
         (Purpose::SaveProject, "no/mine.vvp", "there is no directory"),
-        (Purpose::OpenStyle, "notes.txt", "EOF while parsing"),
+        (Purpose::OpenStyle, "notes.txt", "the text ends before"),
     ];
     for (purpose, name, why) in tries {
         let asked = format!("{path}{name}");
