@@ -158,10 +158,11 @@ impl<'p> Translator<'_, 'p> {
             *old &= !self.mutated(Mutation::OldRingIsNew);
         }
         let found = self.find(x, source)?;
-        let y = self.neighbour(found, forward);
+        let (y, place) = self.neighbour(found, forward);
         self.learn_that_it_stands_in(y, source);
         if let (Some(x), Source::Of { v, old: false }) = (x, source) {
-            self.known.learn(Key::Beside(y), Fact::Beside { x, v, at: found.at });
+            let place = if self.mutated(Mutation::StandsBesideItself) { found.at } else { place };
+            self.known.learn(Key::Beside(y), Fact::Beside { x, v, at: found.at, place });
         }
         Ok(Val::One(y))
     }

@@ -81,11 +81,12 @@ pub(super) enum Fact {
         offset: Value,
         len: Value,
     },
-    /// Beside `x`, if that stands in the ring of `v`, so many bytes from its start.
+    /// At a place beside `x`, which stands there if this is not null; both in the ring of `v`, bytes from its start.
     Beside {
         x: Value,
         v: Value,
         at: Value,
+        place: Value,
     },
     /// An address.
     At(Value),
@@ -179,8 +180,9 @@ impl Known {
     /// A vertex is not null.
     pub(super) fn is_not_null(&mut self, x: Value) {
         self.learn(Key::NotNull(x), Fact::Holds);
-        if let Some(Fact::Beside { x, v, at }) = self.get(Key::Beside(x)) {
-            self.learn(Key::Stands { x, v }, Fact::Is(at));
+        if let Some(Fact::Beside { x: other, v, at, place }) = self.get(Key::Beside(x)) {
+            self.learn(Key::Stands { x: other, v }, Fact::Is(at));
+            self.learn(Key::Stands { x, v }, Fact::Is(place));
         }
     }
 

@@ -149,7 +149,7 @@ impl<'p> Translator<'_, 'p> {
             self.leave_if(edge_values, slow);
         }
         let lanes = if k > 3 { self.packed(items, v) } else { Vec::new() };
-        let bad = if k > 3 { Some(self.not_a_ring_of_lanes(&lanes, items)) } else { self.not_a_ring(items, v) };
+        let bad = if k > 3 { Some(self.not_a_ring_of_lanes(&lanes, items, v)) } else { self.not_a_ring(items, v) };
         if let Some(bad) = bad {
             self.leave_if(bad, slow);
         }
@@ -218,13 +218,12 @@ impl<'p> Translator<'_, 'p> {
         bad.into_iter().reduce(|a, b| self.b.ins().bor(a, b))
     }
 
-    /// Items by fours; after the last `v`, if it may be among them, null, and then lanes that differ from every vertex and
-    /// from each other.
+    /// Items by fours; where that leaves lanes, `v` follows, null, and then what differs from every vertex and from each
+    /// other.
     fn packed(&mut self, items: &[Value], v: Value) -> Vec<Value> {
-        let padding = [0, !1, !2].map(|none| self.int32(none));
-        let itself = if items.iter().all(|&x| self.known.differ(x, v)) { None } else { Some(v) };
-        let all: Vec<Value> = items.iter().copied().chain(itself).chain(padding).collect();
-        let fours = (all.len() - padding.len()).div_ceil(4);
+        let padding = [0, !1].map(|none| self.int32(none));
+        let all: Vec<Value> = items.iter().copied().chain([v]).chain(padding).collect();
+        let fours = items.len().div_ceil(4);
         (0..fours)
             .map(|k| {
                 let four = &all[4 * k..4 * k + 4];
@@ -235,14 +234,19 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// [`Translator::not_a_ring`], four comparisons at a time.
-    fn not_a_ring_of_lanes(&mut self, lanes: &[Value], items: &[Value]) -> Value {
+    fn not_a_ring_of_lanes(&mut self, lanes: &[Value], items: &[Value], v: Value) -> Value {
         let mut pairs = self.pairs_of_lanes(lanes);
-        // There is a lane for null behind them, unless they fill all, or `v` does.
-        let has_null = items.len() + 1 < 4 * lanes.len();
-        if !has_null && !items.iter().all(|&x| self.known.holds(Key::NotNull(x))) {
-            let zero = self.int32(0);
-            let nulls = self.b.ins().splat(types::I32X4, zero);
-            pairs.extend(lanes.iter().map(|&x| (x, nulls)));
+        let free = 4 * lanes.len() - items.len();
+        let mut others = Vec::new();
+        if free < 1 && !items.iter().all(|&x| self.known.differ(x, v)) {
+            others.push(v);
+        }
+        if free < 2 && !items.iter().all(|&x| self.known.holds(Key::NotNull(x))) {
+            others.push(self.int32(0));
+        }
+        for other in others {
+            let other = self.b.ins().splat(types::I32X4, other);
+            pairs.extend(lanes.iter().map(|&x| (x, other)));
         }
         self.any_equal(&pairs)
     }

@@ -279,20 +279,19 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().icmp(IntCC::NotEqual, found.start, nothing)
     }
 
-    /// What follows or precedes; null if it is not there.
-    pub(super) fn neighbour(&mut self, found: Found, forward: bool) -> Value {
+    /// What follows or precedes, with its place, bytes from the start; null if it is not there.
+    pub(super) fn neighbour(&mut self, found: Found, forward: bool) -> (Value, Value) {
         let forward = forward != self.mutated(Mutation::NextIsPrevious);
-        if forward {
+        let place = if forward {
             let zero = self.b.ins().iconst(types::I64, 0);
             let next = self.b.ins().iadd_imm_s(found.at, 4);
             let last = self.b.ins().icmp(IntCC::Equal, next, found.bytes);
-            let offset = self.b.ins().select(last, zero, next);
-            self.load_slot(found.start, offset, found.flags)
+            self.b.ins().select(last, zero, next)
         } else {
             let from = self.b.ins().select(found.at, found.at, found.bytes);
-            let offset = self.b.ins().iadd_imm_s(from, -4);
-            self.load_slot(found.start, offset, found.flags)
-        }
+            self.b.ins().iadd_imm_s(from, -4)
+        };
+        (self.load_slot(found.start, place, found.flags), place)
     }
 
     /// The start of a ring, null if it is empty.
