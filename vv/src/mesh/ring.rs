@@ -423,20 +423,35 @@ impl Rings {
         self.set_len(v, range.len() - 1);
     }
 
-    /// Restores the invariants of gaps: none beside another, none alone, the first at the end.
-    fn settle_gaps(&mut self, v: Vertex) {
-        if !self.slots[self.head(v).range()].contains(&None) {
-            return;
-        }
-        let mut i = 1;
-        while i < self.head(v).len as usize {
-            let slots = &self.slots[self.head(v).range()];
-            if slots[i].is_none() && slots[i - 1].is_none() {
-                self.remove_slot(v, i);
-            } else {
-                i += 1;
+    /// Puts what stands in one slot of the arena, with its edge values, into another.
+    fn move_slot(&mut self, from: usize, to: usize) {
+        let slots = self.slots.edit();
+        slots[to] = slots[from];
+        for property in &mut self.properties {
+            if let Some(value) = property.values.get(from) {
+                property.values.set(to, value);
             }
         }
+    }
+
+    /// Restores the invariants of gaps: none beside another, none alone, the first at the end.
+    fn settle_gaps(&mut self, v: Vertex) {
+        let range = self.head(v).range();
+        if !self.slots[range.clone()].contains(&None) {
+            return;
+        }
+        // In one pass: a hub may lose all its neighbours at once.
+        let first = range.start + 1;
+        let mut end = first; // of what stays
+        for i in first..range.end {
+            if self.slots[i].is_some() || self.slots[end - 1].is_some() {
+                if end < i {
+                    self.move_slot(i, end);
+                }
+                end += 1;
+            }
+        }
+        self.set_len(v, end - range.start);
         let slots = &self.slots[self.head(v).range()];
         match slots {
             [None] => self.set_len(v, 0),

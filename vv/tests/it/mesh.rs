@@ -10,7 +10,7 @@ use vv::mesh::close::close;
 use vv::mesh::faces::{Faces, faces};
 use vv::mesh::statistics::{Statistics, statistics};
 use vv::mesh::validate::{Finding, validate};
-use vv::mesh::{Mesh, Vertex};
+use vv::mesh::{Mesh, Value, Vertex};
 use vv::stop::{Stop, Stopped};
 
 pub fn vertex(number: usize) -> Vertex {
@@ -555,4 +555,22 @@ proptest! {
             prop_assert_eq!(findings(&mesh), []);
         }
     }
+}
+
+/// Its ring is settled in one pass, edge values and all.
+#[test]
+fn a_hub_may_lose_nearly_all_its_neighbours_at_once() {
+    let n = 300_000;
+    let mut mesh = Mesh::new();
+    let all: Vec<Vertex> = (0..n).map(|_| mesh.create().unwrap()).collect();
+    let items: Vec<_> = all[1..].iter().copied().map(Some).collect();
+    mesh.make(all[0], &items).unwrap();
+    let weight = mesh.declare_edge_property("weight", Value::Int(0));
+    let (near, far) = (all[7], all[n - 1]);
+    mesh.set_edge_value(weight, all[0], far, Value::Int(5));
+    [all[0], near, far].into_iter().for_each(|v| _ = mesh.set.add(v));
+    assert_eq!(mesh.keep_only_set(), n - 3);
+    assert_eq!(ring_list(&mesh), "1: 2 - 3 -, 2: , 3: ");
+    let values: Vec<_> = mesh.edge_values(weight, vertex(1)).collect();
+    assert_eq!(values, [(vertex(2), Value::Int(0)), (vertex(3), Value::Int(5))]);
 }
