@@ -24,8 +24,8 @@ pub(super) fn join(
     for &v in wires.iter().flatten() {
         stop.check()?;
         let Some(at) = Vertex::from_index(v as usize) else { return Err(full()) };
-        let slots = mesh.ring(at).slots();
-        if !slots.is_empty() && !slots.contains(&None) && !homes.contains_key(&v) {
+        let ring = mesh.ring(at);
+        if !ring.slots().is_empty() && !ring.contains(None) && !homes.contains_key(&v) {
             let twin = mesh.create().map_err(|_| full())?;
             mesh.set_position(twin, mesh.position(at));
             mesh.set.add(twin);

@@ -118,3 +118,16 @@ fn many_lines_meet_in_one_vertex() {
     let [_, written] = rings_and_lines(&text);
     assert_eq!(written, lines.join(" / "));
 }
+
+/// Nor from inside of a surface: a cone over a polygon with as many corners as lines.
+#[test]
+fn many_lines_begin_at_a_hub_inside_of_a_surface() {
+    let n = 50_000;
+    let mut statements = String::new();
+    (2..=n).for_each(|i| write!(statements, "f 1 {i} {} / l 1 {} / ", if i == n { 2 } else { i + 1 }, n + i).unwrap());
+    let text = obj(2 * n, statements.trim_end_matches(" / "));
+    let (mesh, messages) = read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
+    assert_eq!(messages[0].message, "1 vertex is in no face; dropped");
+    assert_eq!(messages[1].message, "lines end at 1 vertex inside of the surface; duplicated for them");
+    assert_eq!(mesh.vertices().map(|v| mesh.ring(v).valence()).max(), Some(n - 1));
+}
