@@ -142,15 +142,12 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Self::Item> {
         let (line, text) = self.0.next()?;
         let mut text = Cow::Borrowed(text);
-        while let Some(head) = text.trim_ascii_end().strip_suffix(b"\\") {
-            let mut joined = head.to_vec();
+        while let Some(head) = text.trim_ascii_end().strip_suffix(b"\\").map(<[u8]>::len) {
+            let joined = text.to_mut();
+            joined.truncate(head);
             joined.push(b' ');
-            let more = self.0.next();
-            joined.extend_from_slice(more.map_or(&[], |(_, line)| line));
-            text = Cow::Owned(joined);
-            if more.is_none() {
-                break;
-            }
+            let Some((_, more)) = self.0.next() else { break };
+            joined.extend_from_slice(more);
         }
         Some(Statement { line, text })
     }

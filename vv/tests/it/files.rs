@@ -579,6 +579,14 @@ fn written(mesh: &Mesh, format: Format) -> Vec<u8> {
     write(mesh, &faces(mesh, &Stop::new()).unwrap(), format).unwrap()
 }
 
+/// A face over a million lines is joined once, not again with each of them.
+#[test]
+fn a_statement_may_be_continued_on_very_many_lines() {
+    let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {}3\n", "\\\n".repeat(1_000_000));
+    check_obj(&text, "1 2 3");
+    check_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\ \n 3\\", "1 2 3");
+}
+
 #[test]
 fn what_was_written_reads_back_and_is_written_the_same() {
     for (name, first) in assets() {
