@@ -1,5 +1,4 @@
 //! Mesh files: bytes to [`Mesh`] and back.
-
 //!
 //! | format | positions | colours | other values | polygons |
 //! |---|---|---|---|---|
@@ -269,7 +268,8 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions) -> Result<(Mesh
 }
 
 /// Writes a mesh: the vertices of its set in order of creation, its faces as polygons, and of its properties what the
-/// format can hold (see the module); properties that hold vertices are never written. Numbers in texts are the shortest
+/// format can hold (see the module); properties that hold vertices are never written, nor is in PLY the second of two
+/// that would have columns of one name, as the vector `v` and the number `v_x`. Numbers in texts are the shortest
 /// decimals that read back as the same doubles. What was written and read is written the same, byte for byte, but for
 /// three or more fans of faces in one vertex, whose order polygons do not tell, for polygons that were cut into
 /// triangles, and for STL, which does not keep the order of vertices.

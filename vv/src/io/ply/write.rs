@@ -1,5 +1,6 @@
 //! A mesh to rows.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 
 use super::super::{COLOR, is_name, numbering, polygons, push_number};
@@ -7,20 +8,18 @@ use super::{Encoding, Scalar};
 use crate::mesh::faces::Faces;
 use crate::mesh::{Mesh, Property, Type, Value, Values, Vertex};
 
-/// Names that mean something else in the file.
-const TAKEN: [&str; 9] = ["x", "y", "z", "red", "green", "blue", "nx", "ny", "nz"];
+/// Names that mean something else where vertices have them, where edges have them, and anywhere: normals are not read.
+const OF_VERTICES: [&str; 9] = ["x", "y", "z", "red", "green", "blue", "nx", "ny", "nz"];
+const OF_EDGES: [&str; 5] = ["vertex1", "vertex2", "nx", "ny", "nz"];
+const OF_ANYTHING: [&str; 3] = ["nx", "ny", "nz"];
 
 pub(in super::super) fn write(mesh: &Mesh, faces: &Faces, encoding: Encoding) -> Vec<u8> {
     let (numbers, members) = numbering(mesh);
-    let vertices: Vec<Column> =
-        mesh.vertex_properties().iter().enumerate().filter_map(|(i, p)| Column::of(p, i)).collect();
-    let edges: Vec<Column> = mesh.edge_properties().iter().enumerate().filter_map(|(i, p)| Column::of(p, i)).collect();
-    let whole: Vec<(&str, Value)> =
-        mesh.mesh_properties().iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    let whole: Vec<(Column, Value)> = whole
-        .into_iter()
-        .filter_map(|(name, value)| Some((Column::new(name, &Values::filled(value, 1), 0)?, value)))
-        .collect();
+    let named = |p: &Property| (p.name.clone(), p.values.clone());
+    let vertices = columns(mesh.vertex_properties().iter().map(named), &OF_VERTICES, true);
+    let edges = columns(mesh.edge_properties().iter().map(named), &OF_EDGES, false);
+    let values = mesh.mesh_properties().iter().map(|(name, value)| (name.clone(), Values::filled(*value, 1)));
+    let whole = columns(values, &OF_ANYTHING, false);
     let edge_rows = if edges.is_empty() { Vec::new() } else { edge_rows(mesh, &members, &edges) };
     let longest = polygons(faces).map(<[Vertex]>::len).max().unwrap_or(0);
     let length = if longest > usize::from(u8::MAX) { Scalar::Uint32 } else { Scalar::Uint8 };
@@ -45,7 +44,7 @@ pub(in super::super) fn write(mesh: &Mesh, faces: &Faces, encoding: Encoding) ->
     }
     if !whole.is_empty() {
         let _ = writeln!(out, "element mesh 1");
-        whole.iter().for_each(|(column, _)| column.announce(&mut out));
+        whole.iter().for_each(|column| column.announce(&mut out));
     }
     let _ = writeln!(out, "end_header");
 
@@ -68,10 +67,28 @@ pub(in super::super) fn write(mesh: &Mesh, faces: &Faces, encoding: Encoding) ->
         row.end();
     }
     if !whole.is_empty() {
-        whole.iter().for_each(|(column, value)| row.put_value(column, Some(*value)));
+        let value = |column: &Column| mesh.mesh_properties().get(column.index).map(|(_, value)| *value);
+        whole.iter().for_each(|column| row.put_value(column, value(column)));
         row.end();
     }
     row.out
+}
+
+/// How properties are written. Of two that would have a column of the same name the second is left out, as no reader
+/// could tell them apart.
+fn columns(properties: impl Iterator<Item = (String, Values)>, taken: &[&str], are_of_vertices: bool) -> Vec<Column> {
+    let mut used = BTreeSet::new();
+    let mut columns = Vec::new();
+    for (index, (name, values)) in properties.enumerate() {
+        let is_color = are_of_vertices && name == COLOR && values.ty() == Type::Vec;
+        let is_free = |name: &String| !used.contains(name) && (is_color || !taken.contains(&name.as_str()));
+        let column = Column::new(&name, &values, index, is_color);
+        if let Some(column) = column.filter(|column| column.names.iter().all(is_free)) {
+            used.extend(column.names.iter().cloned());
+            columns.push(column);
+        }
+    }
+    columns
 }
 
 /// How a property is written.
@@ -79,17 +96,14 @@ struct Column {
     /// What the columns are called: three for a vector.
     names: Vec<String>,
     scalar: Scalar,
+    /// Of the property.
     index: usize,
 }
 
 impl Column {
-    fn of(property: &Property, index: usize) -> Option<Self> {
-        Self::new(&property.name, &property.values, index)
-    }
-
-    /// `None` for what cannot be written: vertices, and names that mean something else.
-    fn new(name: &str, values: &Values, index: usize) -> Option<Self> {
-        if !is_name(name.as_bytes()) || TAKEN.contains(&name) {
+    /// `None` for what cannot be written: vertices, and names that are none.
+    fn new(name: &str, values: &Values, index: usize, is_color: bool) -> Option<Self> {
+        if !is_name(name.as_bytes()) {
             return None;
         }
         let scalar = match values {
@@ -106,12 +120,12 @@ impl Column {
                     Scalar::Float64 // the largest that there is
                 }
             }
-            Values::Vec(_) if name == COLOR => Scalar::Uint8,
+            Values::Vec(_) if is_color => Scalar::Uint8,
             Values::Double(_) | Values::Vec(_) => Scalar::Float64,
             Values::Vertex(_) => return None,
         };
         let names = match values.ty() {
-            Type::Vec if name == COLOR => ["red", "green", "blue"].map(str::to_owned).to_vec(),
+            Type::Vec if is_color => ["red", "green", "blue"].map(str::to_owned).to_vec(),
             Type::Vec => ["x", "y", "z"].map(|axis| format!("{name}_{axis}")).to_vec(),
             _ => vec![name.to_owned()],
         };

@@ -149,6 +149,27 @@ fn a_declaration_finds_the_values_of_its_name_if_its_type_can_hold_them() {
     check(ply("float", "1", "0", "0"), Value::Vec(glam::DVec3::X), "p: (1 0 0) (1 0 0) (1 0 0)");
 }
 
+/// What would be two columns of one name is written once, and what means something at vertices alone is kept elsewhere.
+#[test]
+fn names_that_would_clash_in_a_file_do_not_spoil_it() {
+    let (mut mesh, _) = read(square("").as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
+    let half = Value::Vec(glam::DVec3::splat(0.5));
+    mesh.declare_vertex_property("v", half);
+    mesh.declare_vertex_property("v_y", Value::Double(2.5));
+    mesh.declare_vertex_property("red", Value::Int(7));
+    mesh.declare_vertex_property("color", half);
+    mesh.declare_edge_property("vertex1", Value::Int(7));
+    mesh.declare_edge_property("color", half);
+    mesh.declare_edge_property("x", Value::Double(1.5));
+    mesh.declare_mesh_property("blue", Value::Int(3));
+    let (back, _) = read(&written(&mesh, Format::Ply), Format::Ply, &ReadOptions::default()).unwrap();
+    let names = |properties: &[Property]| properties.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(back.vertex_properties()), ["color", "v"]);
+    assert_eq!(names(back.edge_properties()), ["color", "x"]);
+    assert_eq!(back.edge_value(0, back.vertices().next().unwrap(), back.vertices().nth(1).unwrap()), Some(half));
+    assert_eq!(back.mesh_properties(), [("blue".to_owned(), Value::Int(3))]);
+}
+
 #[test]
 fn errors_name_the_column_of_the_word_they_are_about() {
     let check = |text: &str, format: Format, expected: &str| {
