@@ -58,7 +58,8 @@ pub fn isomorphism(
     };
     let components = Components::new(a);
     // First those that lie where they belong, so that no other takes their place.
-    let mut by_x: Vec<Vertex> = b.set.iter().collect();
+    // What is no number is at home nowhere; where it stood in this order would depend on its sign.
+    let mut by_x: Vec<Vertex> = b.set.iter().filter(|v| !b.position(*v).x.is_nan()).collect();
     by_x.sort_by(|p, q| b.position(*p).x.total_cmp(&b.position(*q).x));
     let mut homeless = Vec::new();
     for (i, members) in components.members.iter().enumerate() {
@@ -106,7 +107,8 @@ impl Search<'_> {
         let first = by_x.partition_point(|v| self.b.position(*v).x < x - reach);
         let last = by_x.partition_point(|v| self.b.position(*v).x <= x + reach);
         for &image in by_x.get(first..last).unwrap_or_default() {
-            if self.distance(root, image) > self.tolerance || !self.looks_alike(root, image) {
+            let is_near = self.distance(root, image) <= self.tolerance;
+            if !is_near || !self.looks_alike(root, image) {
                 continue;
             }
             for offset in 0..self.a.ring(root).slots().len().max(1) {
@@ -399,6 +401,21 @@ mod tests {
         assert_eq!(found.farthest.map(|f| f.1), Some(0.0));
         let found = isomorphism(&strange, &mesh(TETRAHEDRON), 1e-9, false, &Stop::new()).unwrap().unwrap();
         assert!(found.farthest.unwrap().1.is_nan());
+    }
+
+    #[test]
+    fn what_is_no_number_takes_no_ones_place() {
+        // Two points apart from each other; dividing zero by zero gives a NaN with its sign set on some machines.
+        let mut points = Mesh::new();
+        for place in [-f64::NAN, f64::NAN, 0.0, 1.0] {
+            for y in [0.0, f64::NAN] {
+                let v = points.create().unwrap();
+                points.set.add(v);
+                points.set_position(v, glam::DVec3::new(place, y, 0.0));
+            }
+        }
+        let found = isomorphism(&points, &points, 0.0, false, &Stop::new()).unwrap().unwrap();
+        assert_eq!(found.farthest.map(|f| f.1), Some(0.0));
     }
 
     #[test]
