@@ -89,31 +89,32 @@ impl<'a> Checker<'a> {
                 }
             }
         }
+        let main = files.iter().filter(|(file, _)| *file == FileId::MAIN).flat_map(|(_, ast)| &ast.items);
+        let includes: Vec<(&str, Span)> = main
+            .filter_map(|item| match item {
+                Item::Include { path, span } => Some((path.as_str(), *span)),
+                _ => None,
+            })
+            .collect();
         for (span, signature) in declared {
-            self.keep_promise(span, signature, files);
+            self.keep_promise(span, signature, &includes);
         }
     }
 
     /// A function that is declared somewhere must be defined as it is declared, and must be if a step needs it.
-    fn keep_promise(&mut self, span: Span, promised: Signature<'a>, files: &'a [(FileId, Ast)]) {
+    /// `includes` are those of the program's own file.
+    fn keep_promise(&mut self, span: Span, promised: Signature<'a>, includes: &[(&str, Span)]) {
         let name = promised.name;
         let form = self.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
         let Some(found) = self.function_names.get(name).and_then(|f| self.signatures.get(f.0 as usize)) else {
-            let asked = files.iter().find(|(file, _)| *file == FileId::MAIN).and_then(|(_, ast)| {
-                let path = &self.sources.file(span.file)?.name;
-                ast.items.iter().find_map(|item| match item {
-                    Item::Include { path: included, span } if path.ends_with(included.as_str()) => {
-                        Some((included, *span))
-                    }
-                    _ => None,
-                })
-            });
+            let asker = self.sources.file(span.file).filter(|_| span.file != FileId::MAIN);
+            let asked = asker.and_then(|asker| includes.iter().find(|(path, _)| asker.name.ends_with(path)));
             let error = match asked {
-                Some((file, at)) if span.file != FileId::MAIN => {
+                Some(&(file, at)) => {
                     let error = Diagnostic::error(at, format!("`{file}` needs a function `{name}`, and there is none"));
                     error.label(span, "asked for here")
                 }
-                _ => Diagnostic::error(span, format!("`{name}` is declared, but nowhere defined")),
+                None => Diagnostic::error(span, format!("`{name}` is declared, but nowhere defined")),
             };
             let error = error.hint(format!("write `{form} {{ … }}`"));
             // Calls shall find it all the same.
