@@ -89,11 +89,11 @@ impl Polygons {
     }
 
     /// Adds a face by the numbers of its corners, from 0, counter-clockwise seen from outside; `line` is the line of
-    /// the file it stands in. A corner that is no vertex makes no face: the number is returned.
+    /// the file it stands in.
     ///
     /// # Errors
-    /// The first corner that is not there. More corners than a `u32` counts fail too, with the corner at which it
-    /// happens.
+    /// The first corner that is no vertex; no face is added. More corners than a `u32` counts fail too, with the corner
+    /// at which it happens.
     pub fn push(&mut self, corners: impl IntoIterator<Item = u32>, line: Option<u32>) -> Result<(), u32> {
         let start = self.corners.len();
         for corner in corners {
@@ -108,11 +108,10 @@ impl Polygons {
         Ok(())
     }
 
-    /// Adds a wire from point to point by the numbers of vertices, from 0. A point that is no vertex makes none: the
-    /// number is returned.
+    /// Adds a wire from point to point by the numbers of vertices, from 0.
     ///
     /// # Errors
-    /// The first point that is not there.
+    /// The first point that is no vertex; nothing is added.
     pub fn push_wire(&mut self, points: &[u32]) -> Result<(), u32> {
         match points.iter().find(|&&point| point as usize >= self.positions.len()) {
             Some(&point) => Err(point),
@@ -204,9 +203,10 @@ struct Report {
     remarks: Vec<Diagnostic>,
 }
 
-/// Makes a mesh whose faces are the polygons and whose other edges the wires, with a hole on either side. Its vertices are those of the input in order, then duplicates; its set
-/// holds them all. The first face that names a vertex gives the start of its ring: after (…, a, v, c, …) the ring of v
-/// begins with c, or where v lies on a border after the gap before the fan of that face. Wires follow the fans.
+/// Makes a mesh whose faces are the polygons and whose other edges the wires, with a hole on either side. Its vertices
+/// are those of the input in order, then duplicates; its set holds them all. The first face that names a vertex gives
+/// the start of its ring: after (…, a, v, c, …) the ring of v begins with c, or where v lies on a border after the gap
+/// before the fan of that face. Wires follow the fans.
 ///
 /// What is no rotation system is mended, and what was done comes back as warnings without spans:
 ///

@@ -34,11 +34,11 @@ fn drop_degenerate(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> 
         let len = kept.corners.len() - start;
         if len < 3 {
             kept.corners.truncate(start);
-            dropped.push(polygons.quote(f));
+            dropped.push(f);
             continue;
         }
         if len < corners.len() {
-            repeated.push(polygons.quote(f));
+            repeated.push(f);
         }
         kept.ends.push(kept.corners.len() as u32);
         kept.names.push(polygons.names[f]);
@@ -46,14 +46,14 @@ fn drop_degenerate(mut polygons: Polygons, report: &mut Report, stop: &Stop) -> 
     if !repeated.is_empty() {
         let message =
             format!("{} named a corner twice in succession; the second was dropped", count(repeated.len(), "face"));
-        report.repairs.push(quote(warning(message), repeated.len(), |i| repeated[i].clone()));
+        report.repairs.push(quote(warning(message), repeated.len(), |i| polygons.quote(repeated[i])));
     }
     if !dropped.is_empty() {
         let message = format!(
             "{} dropped",
             were(dropped.len(), "face of fewer than three corners", "faces of fewer than three corners")
         );
-        report.repairs.push(quote(warning(message), dropped.len(), |i| dropped[i].clone()));
+        report.repairs.push(quote(warning(message), dropped.len(), |i| polygons.quote(dropped[i])));
     }
     kept.positions = std::mem::take(&mut polygons.positions);
     kept.values = std::mem::take(&mut polygons.values);
