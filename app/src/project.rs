@@ -128,11 +128,17 @@ impl Project {
     /// # Errors
     /// Says what is wrong with it.
     pub fn from_json(bytes: &[u8], folder: Option<&Path>) -> Result<Self, String> {
-        let mut project: Self =
-            serde_json::from_slice(bytes).map_err(|error| format!("is no project of vv: {error}"))?;
-        if project.version > VERSION {
+        /// What every version has; a later one may say the rest in ways that have no meaning here.
+        #[derive(Deserialize)]
+        struct Form {
+            version: u32,
+        }
+        let wrong = |error| format!("is no project of vv: {error}");
+        let form: Form = serde_json::from_slice(bytes).map_err(wrong)?;
+        if form.version > VERSION {
             return Err("was made by a later version of vv".to_owned());
         }
+        let mut project: Self = serde_json::from_slice(bytes).map_err(wrong)?;
         if !project.views.values().chain([&project.camera]).all(Camera::is_finite) {
             return Err("is no project of vv: its view is nowhere".to_owned());
         }
@@ -300,6 +306,8 @@ mod tests {
         }
         let later = String::from_utf8(Project::of(&document()).to_json(None).unwrap()).unwrap();
         let later = later.replace("\"version\": 1", "\"version\": 2");
-        assert_eq!(Project::from_json(later.as_bytes(), None).unwrap_err(), "was made by a later version of vv");
+        for later in [later.as_str(), r#"{"version": 2, "meshes": [{"Cloud": "a.obj"}]}"#] {
+            assert_eq!(Project::from_json(later.as_bytes(), None).unwrap_err(), "was made by a later version of vv");
+        }
     }
 }
