@@ -319,3 +319,22 @@ fn names_twice(slots: &[Option<Vertex>]) -> bool {
 fn are(n: usize) -> &'static str {
     if n == 1 { "is" } else { "are" }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// No edit makes such a ring, so it is tried here.
+    #[test]
+    fn a_ring_that_names_a_vertex_twice_is_damaged_however_long_it_is() {
+        for n in [2, 16, 17, 200] {
+            let mut slots: Vec<_> = (1..=n).map(Vertex::from_index).collect();
+            let Some(v) = Vertex::from_index(0) else { unreachable!() };
+            assert!(ring_is_sound(&slots, v), "{n}");
+            slots[n - 1] = slots[0];
+            assert!(!ring_is_sound(&slots, v), "{n}");
+            slots[n - 1] = Some(v);
+            assert!(!ring_is_sound(&slots, v), "{n}: its own neighbour");
+        }
+    }
+}

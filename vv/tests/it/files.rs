@@ -105,6 +105,13 @@ fn neighbouring_faces_that_disagree_are_turned_the_fewer() {
          Warning: 1 face ran round the other way than its neighbours and was turned over\n  \
            face 2 (line 7): v1 v4 v3",
     );
+    // Also where the walk began with the one that disagrees.
+    check_faces(
+        "1 3 2 / 1 3 4 / 1 4 5",
+        "1 2 3 / 1 3 4 / 1 4 5\n\
+         Warning: 1 face ran round the other way than its neighbours and was turned over\n  \
+           face 1 (line 7): v1 v3 v2",
+    );
     check_faces(
         "1 3 2 / 1 4 3 / 1 2 4 / 2 4 3",
         "1 3 2 / 1 2 4 / 1 4 3 / 2 3 4\n\

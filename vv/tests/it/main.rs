@@ -19,6 +19,7 @@ mod rings;
 mod run;
 mod schemes;
 mod shapes;
+mod values;
 
 mod architecture;
 mod check;

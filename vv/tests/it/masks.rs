@@ -6,7 +6,7 @@ use std::ops::{Add, Mul, Sub};
 use std::path::Path;
 
 use vv::engine::{Engine, Machine, Settings};
-use vv::masks::{Around, Class, Fault, Star, classes, fraction, measure, measure_vertex, same_classes};
+use vv::masks::{Around, Class, Fault, Star, classes, fraction, judge, measure, measure_vertex, same_classes};
 use vv::mesh::build::{Polygons, build};
 use vv::mesh::{Mesh, Vertex};
 use vv::stop::Stop;
@@ -385,4 +385,21 @@ fn a_vertex_that_depends_on_too_many_has_no_mask() {
     let v = Vertex::from_index(0).unwrap();
     let mask = measure_vertex(&machine, rule, &mesh, 1, v, &Settings::default()).unwrap();
     assert!(matches!(mask.faults[..], [Fault::Wide { .. }]), "{:?}", mask.faults);
+}
+
+/// What depends on where vertices are shows only where they are elsewhere; and left is not right.
+#[test]
+fn of_a_star_it_is_said_what_is_no_mask() {
+    let star = Star::new(6, Around::Triangles, false).unwrap();
+    let judged = |body: &str| {
+        let machine = machine(&format!("void step(mesh& S) {{ synchronize S; {body} }}"));
+        let rule = machine.program().default_rule().unwrap();
+        judge(&machine, rule, &star, &Settings::default()).unwrap().faults
+    };
+    let turned = "vec a = vec(0, 0, 0); forall q, r in `v a += 0.75 * `q$pos + 0.25 * `r$pos; v$pos = a / valence v;";
+    assert_eq!(judged(&format!("forall v in S {{ {turned} }}")), []);
+    let spiral = "vertex q = any in `v; v$pos = (2.0 * `v$pos + `q$pos + 3.0 * `(nextto q in `v)$pos) / 6.0;";
+    assert!(judged(&format!("forall v in S {{ {spiral} }}")).contains(&Fault::Asymmetric));
+    let torn = "forall v in S if (v$pos.z < -1.1) { vertex q = any in v; erase q from v; erase v from q; }";
+    assert_eq!(judged(torn)[0], Fault::Connectivity);
 }

@@ -221,3 +221,17 @@ pub(super) fn lower(sentence: &str) -> String {
         _ => sentence.to_owned(), // an abbreviation
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Component;
+
+    #[test]
+    fn normalized_integers_lie_from_minus_one_to_one() {
+        let read = |component: Component, bytes: &[u8]| component.read(bytes, true);
+        assert_eq!(read(Component::I8, &[0x81]), Some(-1.0));
+        assert_eq!(read(Component::I8, &[0x80]), Some(-1.0), "the least of all is no less");
+        assert_eq!(read(Component::U16, &[0xff, 0xff]), Some(1.0));
+        assert_eq!(read(Component::U16, &[0xff]), None);
+    }
+}

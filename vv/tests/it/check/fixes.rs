@@ -41,6 +41,10 @@ fn a_wrong_ring_becomes_that_of_the_loop() {
         )
     };
     check(&listing("v"), &listing("x"));
+    // That of the loop, though another was declared after it.
+    let erased =
+        |ring: &str| format!("void f(mesh& S) {{ forall p in S {{ vertex q = any in p; erase q from {ring}; }} }}");
+    check(&erased("unknown"), &erased("p"));
 }
 
 #[test]

@@ -459,6 +459,7 @@ void f(mesh S) { forall p in S print p; }
 //     ^^^^ warning: `f` gets a copy of the mesh, so it is no step of the modeler
 ",
     );
+    check("void f(const mesh& S) { forall p in S print p; }");
 }
 
 #[test]
