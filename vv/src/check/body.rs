@@ -3,7 +3,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::ir::{Function, FunctionId, Local, LocalId, Type};
+use crate::ir::{Function, FunctionId, Local, LocalId, Passing, Type};
 use crate::mesh;
 use crate::source::Span;
 
@@ -37,6 +37,8 @@ struct Variable<'a> {
     /// Faulty ones are used without a word.
     faulty: bool,
     mentions: u32,
+    /// How often it is changed, which is among the mentions.
+    changes: u32,
     /// How many scopes were open where it was declared, this one included.
     depth: usize,
     /// Declared as `vertex v;`.
@@ -105,6 +107,18 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// The program changes it, with what has been mentioned just now.
+    pub(super) fn change(&mut self, id: LocalId) {
+        if let Some(v) = self.variables.get_mut(id.0 as usize) {
+            v.changes += 1;
+        }
+    }
+
+    /// How often it has been changed so far.
+    pub(super) fn changes(&self, id: LocalId) -> u32 {
+        self.variable(id).map_or(0, |v| v.changes)
+    }
+
     /// It is `vertex v;`, declared in the innermost open scope, and has been mentioned once, just now.
     pub(super) fn is_created_and_first_mentioned(&self, id: LocalId) -> bool {
         self.variable(id).is_some_and(|v| v.created && v.mentions == 1 && v.depth == self.scopes.len())
@@ -156,6 +170,7 @@ impl<'a> Checker<'a> {
         // What is faulty may have been the use.
         if !self.diagnostics.iter().skip(reported).any(|d| d.severity == Severity::Error) {
             self.warn_of_unused_variables();
+            self.warn_of_unused_changes(id);
         }
         let done = std::mem::take(&mut self.body);
         self.effects.push(done.effects);
@@ -185,6 +200,42 @@ impl<'a> Checker<'a> {
             .collect();
         for (span, name) in unused {
             self.report(Diagnostic::warning(span, format!("`{name}` is never used")));
+        }
+    }
+
+    /// Meshes and rings that are filled for nothing: copies, and those that a `merge` was forgotten for.
+    fn warn_of_unused_changes(&mut self, function: FunctionId) {
+        let Some(signature) = self.signatures.get(function.0 as usize) else { return };
+        let mut warnings = Vec::new();
+        for (i, (local, v)) in self.body.locals.iter().zip(&self.body.variables).enumerate() {
+            let (name, span) = (v.name, local.span);
+            let what = match local.ty {
+                Type::Mesh => "mesh",
+                Type::Ring => "ring",
+                Type::Value(_) | Type::Void => continue,
+            };
+            if v.changes == 0 || v.changes < v.mentions || v.faulty || name.starts_with('_') {
+                continue;
+            }
+            match (v.role, signature.parameters.get(i)) {
+                (Role::Parameter, Some(p)) if p.passing == Passing::Value => {
+                    let at = Span { start: p.type_span.end, ..p.type_span };
+                    let message = format!("`{name}` is a copy, and nobody sees what is done to it");
+                    let warning = Diagnostic::warning(p.type_span, message);
+                    warnings.push(warning.fix(format!("take the {what} itself, `{what}& {name}`"), at, "&"));
+                }
+                (Role::Local, _) => {
+                    let warning = Diagnostic::warning(span, format!("`{name}` is filled, but not used"));
+                    warnings.push(match local.ty {
+                        Type::Mesh => warning.hint(format!("is a `merge` missing, as in `merge S with {name};`?")),
+                        _ => warning,
+                    });
+                }
+                _ => {}
+            }
+        }
+        for warning in warnings {
+            self.report(warning);
         }
     }
 
@@ -223,6 +274,7 @@ impl<'a> Checker<'a> {
             is_const: new.is_const,
             faulty: new.ty.is_none(),
             mentions: 0,
+            changes: 0,
             depth,
             created: false,
             droppable: false,

@@ -204,6 +204,8 @@ impl<'a> Checker<'a> {
         });
         if let Some((name, span)) = copied.and_then(|s| Some((s.name, s.parameters.first()?.type_span))) {
             let at = Span { start: span.end, ..span };
+            // One mistake, one message.
+            self.diagnostics.retain(|d| d.span != Some(span));
             self.report(
                 Diagnostic::warning(span, format!("`{name}` gets a copy of the mesh, so it is no step of the modeler"))
                     .fix("take the mesh itself, `mesh& S`", at, "&"),

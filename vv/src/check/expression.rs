@@ -168,6 +168,11 @@ impl<'a> Checker<'a> {
     }
 
     fn binary(&mut self, op: BinaryOp, left: &'a tree::Expr, right: &'a tree::Expr, span: Span) -> Option<Expr> {
+        if op == BinaryOp::Add && [left, right].iter().any(|e| matches!(bare(e).kind, Tree::Text(_))) {
+            let error = Diagnostic::error(span, "texts cannot be joined");
+            let parts = format!("{}, {}", self.text(left.span), self.text(right.span));
+            return self.fail(error.hint(format!("`print` writes one thing after the other: `print {parts};`")));
+        }
         let (left, right) = (self.value(left), self.value(right));
         let (left, right) = (left?, right?);
         let (Type::Value(l), Type::Value(r)) = (left.ty, right.ty) else { return None };
@@ -207,6 +212,9 @@ impl<'a> Checker<'a> {
                 if l == VERTEX || r == VERTEX =>
             {
                 error.hint("positions are computed with: `v$pos`")
+            }
+            BinaryOp::Add | BinaryOp::Subtract if l == vec && common(r, r) => {
+                error.hint(format!("to each coordinate: `vec({right_text}, {right_text}, {right_text})`"))
             }
             _ => error,
         };
@@ -366,6 +374,17 @@ impl<'a> Checker<'a> {
             for row in rows {
                 error = error.evidence(format!("`{row}`: {}", row.doc()));
             }
+            // `distance(p, q)`, meant of the positions.
+            let positions = types.iter().map(|&t| if t == ValueType::Vertex { ValueType::Vec } else { t });
+            let positions: Vec<ValueType> = positions.collect();
+            if positions != types && rows.iter().any(|row| effort(&positions, row.parameters()).is_some()) {
+                let texts = values.iter().zip(&types).map(|(value, &ty)| match ty {
+                    ValueType::Vertex => format!("{}$pos", self.text(value.span)),
+                    _ => self.text(value.span).to_owned(),
+                });
+                let call = format!("{name}({})", texts.collect::<Vec<_>>().join(", "));
+                error = error.fix(format!("of positions: `{call}`"), span, call);
+            }
             return self.fail(error);
         };
         if self.body.file_scope && matches!(builtin.code(), Code::Random | Code::RandomBetween) {
@@ -454,6 +473,7 @@ impl<'a> Checker<'a> {
         match named {
             Named::Local(id, found) if found == ty => {
                 self.changeable(id, inner.span)?;
+                self.body.mention(id);
                 Some(Argument::Reference(id))
             }
             Named::Local(_, found) => self.fail(Diagnostic::error(

@@ -438,6 +438,7 @@ impl<'a> Checker<'a> {
     /// Reports a variable declared `const`.
     pub(super) fn changeable(&mut self, id: LocalId, span: Span) -> Option<()> {
         if !self.body.is_const(id) {
+            self.body.change(id);
             return Some(());
         }
         let (name, declared) = (self.body.name(id), self.body.local(id).map_or(span, |l| l.span));

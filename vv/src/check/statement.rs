@@ -1,7 +1,7 @@
 //! Statements. Each tells whether the one after it can be reached.
 
-use crate::diagnostic::Diagnostic;
-use crate::ir::{self, Expr, ExprKind, Item, LocalId, Place, PrintItem, Ring, Stmt, StmtKind, Type};
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::ir::{self, Expr, ExprKind, Item, LocalId, Passing, Place, PrintItem, Ring, Stmt, StmtKind, Type};
 use crate::mesh::{Type as ValueType, Value};
 use crate::source::Span;
 use crate::syntax::tree::{self, ExprKind as Tree, StmtKind as TreeStmt};
@@ -79,7 +79,9 @@ impl<'a> Checker<'a> {
             }
             TreeStmt::While { condition, body } => {
                 let condition = self.condition(condition);
+                let asked = self.asked(condition.as_ref());
                 let body = self.loop_body(body);
+                self.warn_of_idle_loop(condition.as_ref(), &asked, &body.0);
                 return self.close_loop(Some(condition), Vec::new(), body, false, span, out);
             }
             TreeStmt::DoWhile { body, condition } => {
@@ -382,6 +384,45 @@ impl<'a> Checker<'a> {
         falls_through
     }
 
+    /// The variables that a condition asks, with how often they have been changed so far; none if it asks anything else
+    /// that may change.
+    fn asked(&self, condition: Option<&Expr>) -> Vec<(LocalId, u32)> {
+        let mut asked = Vec::new();
+        let mut open: Vec<&Expr> = condition.into_iter().collect();
+        while let Some(e) = open.pop() {
+            match &e.kind {
+                ExprKind::Constant(_) | ExprKind::Global(_) => {}
+                ExprKind::Local(id) => asked.push((*id, self.body.changes(*id))),
+                ExprKind::Convert(_, e) | ExprKind::Unary(_, e) => open.push(e),
+                ExprKind::Binary(_, a, b) | ExprKind::And(a, b) | ExprKind::Or(a, b) => open.extend([&**a, &**b]),
+                _ => return Vec::new(),
+            }
+        }
+        asked
+    }
+
+    /// Warns of a loop that goes on for ever if it goes on at all.
+    fn warn_of_idle_loop(&mut self, condition: Option<&Expr>, asked: &[(LocalId, u32)], body: &[Stmt]) {
+        let changed = asked.iter().any(|&(id, changes)| self.body.changes(id) != changes);
+        // What is faulty may have been the change, and one reference may be the same variable as another.
+        let faulty = self.diagnostics.iter().any(|d| d.severity == Severity::Error);
+        let shared = asked.iter().any(|&(id, _)| self.is_reference(id));
+        let Some(condition) = condition.filter(|_| !(asked.is_empty() || changed || faulty || shared || leaves(body)))
+        else {
+            return;
+        };
+        let mut names: Vec<String> = asked.iter().map(|&(id, _)| format!("`{}`", self.body.name(id))).collect();
+        names.sort_unstable();
+        names.dedup();
+        let message = format!("nothing in this loop changes {}, so it never ends", names.join(" or "));
+        self.report(Diagnostic::warning(condition.span, message));
+    }
+
+    fn is_reference(&self, id: LocalId) -> bool {
+        let signature = self.body.function.and_then(|f| self.signatures.get(f.0 as usize));
+        signature.and_then(|s| s.parameters.get(id.0 as usize)).is_some_and(|p| p.passing == Passing::Reference)
+    }
+
     fn for_loop(
         &mut self,
         init: Option<&'a tree::Stmt>,
@@ -397,10 +438,12 @@ impl<'a> Checker<'a> {
             self.statement(init, &mut inner);
         }
         let condition = condition.map(|c| self.condition(c));
+        let asked = self.asked(condition.as_ref().and_then(Option::as_ref));
         let update: Vec<Option<Expr>> = update.iter().map(|u| self.expression(u)).collect();
         self.body.loops += 1;
         let body = self.inner(body);
         self.body.loops -= 1;
+        self.warn_of_idle_loop(condition.as_ref().and_then(Option::as_ref), &asked, &body.0);
         let update = update.into_iter().flatten().collect();
         let falls_through = self.close_loop(condition, update, body, false, span, &mut inner);
         self.close_scope();
@@ -514,4 +557,24 @@ fn leaves_loop(body: &[Stmt]) -> Leaves {
         }
     }
     leaves
+}
+
+/// Whether statements can leave the loop around them, or the function.
+fn leaves(body: &[Stmt]) -> bool {
+    leaves_loop(body).breaks || returns(body)
+}
+
+fn returns(body: &[Stmt]) -> bool {
+    with_stack(|| {
+        body.iter().any(|s| match &s.kind {
+            StmtKind::Return(_) => true,
+            StmtKind::Block(body)
+            | StmtKind::Loop { body, .. }
+            | StmtKind::ForallSet { body, .. }
+            | StmtKind::ForallRing { body, .. }
+            | StmtKind::ForallFaces { body, .. } => returns(body),
+            StmtKind::If { then, otherwise, .. } => returns(then) || returns(otherwise),
+            _ => false,
+        })
+    })
 }

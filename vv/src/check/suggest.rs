@@ -13,6 +13,17 @@ use super::body::Role;
 /// Searching costs as much as there are names; after so many unknown ones the cause lies elsewhere.
 pub(super) const MAX_SEARCHES: u32 = 50;
 
+/// What the files that are made to be included define.
+pub(super) const SHIPPED: [(&str, &[&str]); 7] = [
+    ("insert.vv", &["insert"]),
+    ("split.vv", &["split"]),
+    ("solids.vv", &["is_empty", "tetrahedron", "cube", "octahedron", "icosahedron", "solid"]),
+    ("ptq.vv", &["ptq"]),
+    ("ptt.vv", &["ptt"]),
+    ("pqq.vv", &["pqq"]),
+    ("dqq.vv", &["dqq"]),
+];
+
 /// Where an unknown name stands.
 #[derive(Clone, Copy)]
 pub(super) enum Wanted<'a> {
@@ -110,7 +121,9 @@ impl<'a> Checker<'a> {
         let error = match nearest(name, names) {
             Some(near) => error.fix(format!("did you mean `{near}`?"), span, near),
             None => match name {
-                "insert" => error.hint("one comes with vv: `#include \"insert.vv\"`"),
+                _ if shipped(name).is_some() => {
+                    error.hint(format!("one comes with vv: `#include \"{}\"`", shipped(name).unwrap_or_default()))
+                }
                 "vertex" => error.hint("`vertex v;` creates a vertex"),
                 "size" | "count" | "len" => error.hint("count in a loop: `int n = 0; forall v in S n += 1;`"),
                 _ => error,
@@ -148,6 +161,9 @@ impl<'a> Checker<'a> {
                 error.fix("the position is `pos`", span, "pos")
             }
             Some(&(declared, _)) => error.label(declared, "a property of something else has this name"),
+            None if matches!(name, "color" | "normal" | "velocity") => {
+                error.hint(format!("declare it at file scope: `{block} {{ vec {name}; }};`"))
+            }
             None => error.hint(format!("declare it at file scope: `{block} {{ double {name} = 0; }};`")),
         };
         self.report(error);
@@ -159,6 +175,11 @@ impl<'a> Checker<'a> {
         self.searches_left.set(left.saturating_sub(1));
         left > 0
     }
+}
+
+/// The file that comes with vv and has a function of this name.
+fn shipped(name: &str) -> Option<&'static str> {
+    SHIPPED.iter().find(|(_, functions)| functions.contains(&name)).map(|&(file, _)| file)
 }
 
 /// The name next to `name`, if one is near; of equally near ones the first.

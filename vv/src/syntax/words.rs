@@ -140,6 +140,10 @@ pub(super) fn foreign_construct(word: &str) -> Option<(&'static str, &'static st
         "class" | "struct" | "union" | "enum" => {
             ("vv has no types of one's own", "values are kept as properties: `vertex { double age = 0; };` and `v$age`")
         }
+        "face" | "faces" | "halfedge" => (
+            "only vertices, edges and meshes have properties",
+            "what belongs to a face can stand at a vertex in its middle, or be computed from its corners",
+        ),
         "typedef" | "using" | "namespace" | "extern" => {
             ("vv has neither namespaces nor type names of one's own", "leave this line out")
         }

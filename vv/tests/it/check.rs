@@ -7,7 +7,9 @@ mod listings;
 mod messages;
 mod mutations;
 mod names;
+mod newcomers;
 mod rings;
+mod vain;
 
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::{Compilation, Included, compile};

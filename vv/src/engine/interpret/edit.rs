@@ -143,7 +143,11 @@ impl<'a> Machine<'a> {
             EditError::Twice(x) => format!("{x} stands in the ring of {v} already"),
             EditError::Full(_) => return self.fail_with(FailureKind::Budget, span, error.to_string()),
         };
-        self.fail(span, message).evidence(self.ring_evidence(v, x)).about(std::iter::once(v).chain(x))
+        let fault = self.fail(span, message).evidence(self.ring_evidence(v, x)).about(std::iter::once(v).chain(x));
+        match error {
+            EditError::Twice(_) => fault.hint("ask first whether they are neighbours: `is x in v`"),
+            _ => fault,
+        }
     }
 }
 

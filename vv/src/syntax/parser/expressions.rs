@@ -290,10 +290,18 @@ impl Parser<'_> {
             return self.cast(open);
         }
         let inner = self.assignment();
-        if self.kind() == Kind::Comma && !self.panicking {
+        let comma = self.kind() == Kind::Comma && !self.panicking;
+        let behind = if comma { self.behind_parentheses(open) } else { None };
+        let edge = behind.is_some_and(|behind| self.kind_at(behind) == Kind::Dollar);
+        if comma && !edge {
             return self.coordinates(open, inner);
         }
-        let second = self.eat(Kind::Bar).then(|| self.assignment());
+        if edge {
+            let here = self.here();
+            self.mend(Diagnostic::error(here, "expected `|`, found `,`").fix("an edge is written `(p|q)`", here, "|"));
+            self.bump();
+        }
+        let second = (edge || self.eat(Kind::Bar)).then(|| self.assignment());
         let closed = self.close(Kind::CloseParen, open);
         let span = self.since(open);
         match second {
@@ -449,7 +457,9 @@ impl Parser<'_> {
                         let error = Diagnostic::error(name.span, "vv has no functions that belong to values");
                         self.fail(error.hint(match name.text.as_str() {
                             "add" | "push" | "push_back" | "append" | "insert" => format!("write `add v to {owner};`"),
-                            "size" | "length" | "count" => format!("`valence {owner}` counts the vertices of a ring"),
+                            "size" | "length" | "count" => format!(
+                                "`valence {owner}` counts the vertices of a ring, `forall v in {owner} n += 1;` those of a mesh"
+                            ),
                             other => format!("if there is such a function, write `{other}({owner})`"),
                         }));
                         return self.error_expression();

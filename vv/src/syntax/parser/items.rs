@@ -75,6 +75,7 @@ impl Parser<'_> {
         let is_pair = is_word && next == Kind::Word && !words::STATEMENTS.contains(&word);
         let construct = words::foreign_construct(word).filter(|_| match word {
             "struct" | "class" | "enum" | "union" | "namespace" => is_pair || next == Kind::OpenBrace,
+            "face" | "faces" | "halfedge" => next == Kind::OpenBrace,
             "template" => next == Kind::Less,
             _ => is_pair,
         });

@@ -484,7 +484,7 @@ fn conditions() {
         r#"
 void f(mesh& S, int i, double x, vertex v, vec p) {
   if (i) print 1;
-  while (x) print 2;
+  while (x--) print 2;
   do print 3; while (v);
   for (; p; ) print 4;
 //       ^ error: this is a `vec`, not a `bool`

@@ -1,0 +1,86 @@
+//! What newcomers write, and what they are told to write: a part of the hint is enough.
+
+use super::compiled;
+
+#[track_caller]
+fn check(text: &str, message: &str, hint: &str) {
+    let c = compiled(text);
+    let d = c.diagnostics.first().expect("a diagnostic");
+    assert_eq!(d.message, message);
+    assert!(d.hints.iter().any(|h| h.message.contains(hint)), "{:?}", d.hints);
+    assert_eq!(c.diagnostics.len(), 1, "{:?}", c.diagnostics);
+}
+
+/// A statement in a rule, where `p` is a vertex, `n` a vec and `i` an int.
+#[track_caller]
+fn check_statement(statement: &str, message: &str, hint: &str) {
+    check(&format!("edge {{ double len; }}; void f(mesh& S, vertex p, vec n, int i) {{ {statement} }}"), message, hint);
+}
+
+#[test]
+fn functions_that_a_file_has_which_comes_with_vv() {
+    for (file, function) in [
+        ("insert.vv", "insert"),
+        ("split.vv", "split"),
+        ("solids.vv", "is_empty"),
+        ("solids.vv", "tetrahedron"),
+        ("solids.vv", "cube"),
+        ("solids.vv", "octahedron"),
+        ("solids.vv", "icosahedron"),
+        ("solids.vv", "solid"),
+        ("ptq.vv", "ptq"),
+        ("ptt.vv", "ptt"),
+        ("pqq.vv", "pqq"),
+        ("dqq.vv", "dqq"),
+    ] {
+        let text = format!("void step(mesh& S) {{ {function}(S); }}");
+        let message = format!("there is no function `{function}`");
+        check(&text, &message, &format!("`#include \"{file}\"`"));
+        let included = compiled(&format!("#include \"{file}\"\n{text}"));
+        assert!(!included.diagnostics.iter().any(|d| d.message == message), "{file} has no {function}");
+    }
+}
+
+#[test]
+fn properties_of_faces() {
+    let message = "only vertices, edges and meshes have properties";
+    check("face { vec color; };", message, "at a vertex in its middle");
+    check("faces { double area = 1; }; void step(mesh& S) { }", message, "computed from its corners");
+}
+
+#[test]
+fn properties_that_are_vectors() {
+    check_statement("p$color = n;", "vertices have no property `color`", "`vertex { vec color; };`");
+    check_statement("p$heat = i;", "vertices have no property `heat`", "`vertex { double heat = 0; };`");
+}
+
+#[test]
+fn edges_with_a_comma() {
+    check_statement("print (p, any in p)$len;", "expected `|`, found `,`", "an edge is written `(p|q)`");
+    check_statement("n = (1, 2, 3);", "expected `)`, found `,`", "`vec(x, y, z)`");
+}
+
+#[test]
+fn functions_of_vertices_in_place_of_positions() {
+    let hint = "of positions: `distance(p$pos, (any in p)$pos)`";
+    check_statement("print distance(p, (any in p));", "`distance` does not take (vertex, vertex)", hint);
+    check_statement("print cross(n, p);", "`cross` does not take (vec, vertex)", "`cross(n, p$pos)`");
+}
+
+#[test]
+fn texts_that_are_joined() {
+    let hint = "`print \"n is \", i;`";
+    check_statement("print \"n is \" + i;", "texts cannot be joined", hint);
+}
+
+#[test]
+fn numbers_added_to_vectors() {
+    let hint = "`vec(i, i, i)`";
+    check_statement("n = n + i;", "`+` does not work on a `vec` and an `int`", hint);
+}
+
+#[test]
+fn sizes_of_meshes() {
+    let hint = "`forall v in S n += 1;` those of a mesh";
+    check_statement("print S.size();", "vv has no functions that belong to values", hint);
+}
