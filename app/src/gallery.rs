@@ -105,12 +105,14 @@ pub const EXHIBITS: &[Exhibit] = exhibits! {
     "limit" "Limit positions" Beyond Some("tetrapod.obj"), Some("loop_limit"), 1;
     "smooth" "Smoothing" Beyond Some("elephant.obj"), Some("taubin"), 4;
     "delaunay" "Delaunay flips" Beyond Some("torus.obj"), None, 1;
+    "remesh" "Remeshing" Beyond None, None, 8;
     "distance" "Distance" Beyond None, None, 30;
     "mountain" "Mountain" Fractals None, None, 5;
     "koch" "Koch's snowflake" Fractals None, None, 3;
     "sierpinski" "Sierpiński's triangle" Fractals None, None, 4;
     "sierpinski-tetrahedron" "Sierpiński's tetrahedron" Fractals None, None, 4;
     "penrose" "Penrose's tiling" Fractals None, None, 4;
+    "coral" "A coral" Growth None, None, 5;
     "tissue" "A growing shoot" Growth None, None, 60;
     "reaction-diffusion" "Spots and stripes" Growth None, None, 100;
     "paper-polyhedral" "Polyhedral, as printed" Paper Some("icosahedron.obj"), None, 2;

@@ -4,6 +4,7 @@
 
 mod growth;
 mod patterns;
+mod remesh;
 
 use std::path::Path;
 

@@ -185,7 +185,7 @@ fn rings_are_not_lists() {
         r.add(a);
         //^^^ error: vv has no functions that belong to values | write `add v to r;`
         x = r.size() + 1;
-        //    ^^^^ error: vv has no functions that belong to values | `valence r` counts the vertices of a ring
+        //    ^^^^ error: vv has no functions that belong to values | `valence r` counts the vertices of a ring, `forall v in r n += 1;` those of a mesh
         make r of v;
         //     ^^ error: expected `nb_of`, found `of` | write `make r nb_of v`
         mesh F = faces S;

@@ -1,0 +1,96 @@
+//! Remeshing and the coral: what must stay as it was, and what must become better.
+
+use vv::mesh::Value;
+
+use super::Show;
+
+/// Lengths of edges, each twice.
+fn lengths(show: &Show) -> Vec<f64> {
+    let mesh = &show.mesh;
+    let ends = mesh.set.iter().flat_map(|p| mesh.ring(p).vertices().map(move |q| (p, q)));
+    ends.map(|(p, q)| mesh.position(p).distance(mesh.position(q))).collect()
+}
+
+/// The part of the vertices that have six neighbours.
+fn regular(show: &Show) -> f64 {
+    let six = show.mesh.set.iter().filter(|&v| show.mesh.ring(v).valence() == 6).count();
+    six as f64 / show.mesh.set.len() as f64
+}
+
+/// The smallest angle of a triangle, as a sine: how thin the thinnest is.
+fn thinnest(show: &Show) -> f64 {
+    let corner = |f: &[glam::DVec3], i: usize| {
+        let (u, v) = (f[(i + 1) % 3] - f[i], f[(i + 2) % 3] - f[i]);
+        u.cross(v).length() / (u.length() * v.length())
+    };
+    show.faces().iter().flat_map(|f| (0..3).map(|i| corner(f, i))).fold(1.0, f64::min)
+}
+
+#[test]
+fn remeshing_makes_edges_of_one_length_and_keeps_the_shape() {
+    let before = Show::new("remesh.vv", &[]);
+    let lengths_before = lengths(&before);
+    let mean = 0.8 * lengths_before.iter().sum::<f64>() / lengths_before.len() as f64;
+    let (volume, thin) = (before.volume(), thinnest(&before));
+    let after = before.steps(8);
+    let counts = after.statistics();
+    assert!(counts.valid && counts.closed);
+    assert_eq!(counts.euler_characteristic, 2);
+    assert!(counts.face_degrees.iter().all(|&(n, _)| n == 3));
+    let lengths = lengths(&after);
+    let fitting = lengths.iter().filter(|&&l| l > 0.8 * mean && l < 4.0 / 3.0 * mean).count();
+    assert!(fitting as f64 > 0.85 * lengths.len() as f64, "{fitting} of {}", lengths.len());
+    assert!(regular(&after) > 0.7, "{}", regular(&after));
+    assert!(thinnest(&after) > 1.4 * thin, "{} {thin}", thinnest(&after));
+    assert!((after.volume() / volume - 1.0).abs() < 0.02, "{} {volume}", after.volume());
+}
+
+#[test]
+fn remeshing_to_another_size_makes_as_many_triangles_as_fit() {
+    let faces = |size: f64| Show::new("remesh.vv", &[("size", Value::Double(size))]).steps(6).statistics().faces as f64;
+    let ratio = faces(0.7) / faces(1.4);
+    assert!((3.2..4.8).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn remeshing_keeps_handles_and_holes() {
+    for (mesh, euler, boundary) in [("genus-2.obj", -2, 0), ("torus.obj", 0, 0), ("grid-open.obj", 1, 1)] {
+        for size in [0.4, 2.0] {
+            let counts = Show::on_mesh(mesh, "remesh.vv", &[("size", Value::Double(size))]).steps(5).statistics();
+            assert!(counts.valid);
+            assert_eq!((counts.euler_characteristic, counts.boundary_loops), (euler, boundary), "{mesh}");
+        }
+    }
+}
+
+#[test]
+fn remeshing_leaves_a_flat_sheet_flat_and_its_outline() {
+    let before = Show::on_mesh("grid-open.obj", "remesh.vv", &[]);
+    let area = before.area();
+    let after = before.steps(6);
+    super::assert_near(after.area(), area);
+}
+
+#[test]
+fn a_coral_grows_four_vertices_on_each_bud() {
+    let awake = [("sleep", Value::Double(0.0)), ("unrest", Value::Double(0.0)), ("rise", Value::Double(1.0))];
+    // Of the octahedron the upper four faces, then all three of each head: none looks down yet.
+    let mut show = Show::new("coral.vv", &awake);
+    let (mut vertices, mut buds) = (6, 4);
+    for _ in 0..2 {
+        show.step();
+        vertices += 4 * buds;
+        let counts = show.statistics();
+        assert!(counts.valid && counts.closed);
+        assert_eq!((counts.vertices, counts.components, counts.genus), (vertices, 1, Some(0)));
+        let young = show.mesh.set.iter().filter(|&v| show.value("bud", v) == Value::Bool(true)).count();
+        assert_eq!(young, 4 * buds);
+        buds *= 3;
+    }
+}
+
+#[test]
+fn a_coral_that_sleeps_stays() {
+    let counts = Show::new("coral.vv", &[("sleep", Value::Double(1.0))]).steps(2).statistics();
+    assert_eq!((counts.vertices, counts.faces), (6, 8));
+}
