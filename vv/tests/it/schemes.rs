@@ -7,6 +7,7 @@
 
 mod assets;
 mod faults;
+mod four_eight;
 mod laws;
 mod masks;
 mod published;
