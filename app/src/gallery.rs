@@ -112,8 +112,8 @@ pub const EXHIBITS: &[Exhibit] = exhibits! {
     "sierpinski" "Sierpiński's triangle" Fractals None, None, 4;
     "sierpinski-tetrahedron" "Sierpiński's tetrahedron" Fractals None, None, 4;
     "penrose" "Penrose's tiling" Fractals None, None, 4;
-    "coral" "A coral" Growth None, None, 5;
     "tissue" "A growing shoot" Growth None, None, 60;
+    "coral" "A coral" Growth None, None, 5;
     "reaction-diffusion" "Spots and stripes" Growth None, None, 100;
     "paper-polyhedral" "Polyhedral, as printed" Paper Some("icosahedron.obj"), None, 2;
     "paper-loop" "Loop, as printed" Paper Some("octahedron.obj"), None, 3;
