@@ -107,6 +107,7 @@ fn note_5_a_vertex_enters_a_ring_once_and_never_its_own() {
         "replace a with b in f",
         "error 3:16 `b`: v2 stands in the ring of v6 already
          = ring of v6: v1 v2
+         ? ask first whether they are neighbours: `is x in v`
          about v6 v2",
     );
     check(
@@ -119,6 +120,7 @@ fn note_5_a_vertex_enters_a_ring_once_and_never_its_own() {
         "splice a before b in f",
         "error 3:8 `a`: v1 stands in the ring of v6 already
          = ring of v6: v1 v2
+         ? ask first whether they are neighbours: `is x in v`
          about v6 v1",
     );
 }
