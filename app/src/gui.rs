@@ -46,6 +46,7 @@ mod render_options;
 mod ring;
 mod saving;
 mod selection;
+mod spread;
 mod theme;
 mod timeline;
 mod toolbar;

@@ -166,7 +166,7 @@ fn surface(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     for surface in [Surface::Lights, Surface::ReflectionLines, Surface::Isophotes] {
         let command = Command::ShowBy(surface);
         let on = session.document.style.surface == surface;
-        if ui.radio(on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
+        if super::widgets::radio(ui, on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
             commands.push(command);
         }
     }
@@ -194,7 +194,8 @@ fn cut(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                     cut.across = axis;
                 }
             }
-            ui.checkbox(&mut cut.flipped, "other side").on_hover_text("cut away what lies on the other side");
+            super::widgets::check_box(ui, &mut cut.flipped, "other side")
+                .on_hover_text("cut away what lies on the other side");
         });
         ui.spacing_mut().slider_width = (ui.available_width() - 66.0).max(40.0);
         let slider = ui.add(Slider::new(&mut cut.position, -1.0..=1.0).max_decimals(3));

@@ -492,7 +492,7 @@ impl Editor {
             let rect = page.rect_of(&number.range);
             if rect.contains(pos) && self.handle.is_none() {
                 if tuning::Handle::may_come(ui) {
-                    self.handle = Some(tuning::Handle::new(number, rect, page.text));
+                    self.handle = Some(tuning::Handle::new(number, rect, page.text, tuning::is_direct(ui)));
                 } else {
                     ui.ctx().request_repaint_after_secs(0.3);
                 }

@@ -72,7 +72,7 @@ impl Gallery {
                 }
                 if let Some(name) = own_mesh(session).filter(|_| ui.available_width() > 200.0) {
                     let text = format!("keep {name}");
-                    let keep = ui.checkbox(&mut keep_mesh, text);
+                    let keep = super::widgets::check_box(ui, &mut keep_mesh, &text);
                     keep.on_hover_text("show the programs on the mesh that is open, not on one that suits them");
                 }
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {

@@ -15,9 +15,14 @@ use crate::worker::Frame as Shown;
 
 const WIDTH: f32 = 148.0;
 const BAR: f32 = 168.0;
+/// All of its width.
+pub const BESIDE: f32 = WIDTH + 34.0;
 const ROW: f32 = 17.0;
+/// The part of a picture that it covers at most; in smaller ones it is a strip.
+const MOST: f32 = 0.14;
 
-/// Shows it in the lower right corner; with the value under the pointer, if it is over the mesh. Returns where it is.
+/// Shows it in the lower right corner, in a small picture as a strip; with the value under the pointer, if it is over the
+/// mesh. Returns where it is.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -37,10 +42,11 @@ pub fn show(
         Err(_) => 2.0 * ROW,
     };
     let height = height + 2.0 * ROW + 36.0;
-    if rect.height() < height + 40.0 || rect.width() < WIDTH + 120.0 {
-        return None; // no room
-    }
     let under = at.and_then(|pointer| under(&pointer, frame, colors.as_ref().ok()?));
+    let part = (WIDTH + 24.0) * height / rect.area().max(1.0);
+    if part > MOST || rect.height() < height + 40.0 {
+        return compact(ui, rect, &title, colors, under.as_ref());
+    }
     let place =
         Rect::from_min_size(rect.right_bottom() - vec2(WIDTH + 34.0, height + 10.0), vec2(WIDTH + 24.0, height));
     let shown = ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
@@ -60,6 +66,97 @@ pub fn show(
             });
     });
     Some(shown.response.rect)
+}
+
+/// A strip above the lower edge: what the colours are, and a bar or the kinds, in a line each.
+fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<&Under>) -> Option<Rect> {
+    let width = (rect.width() - 44.0).min(230.0);
+    if width < 90.0 || rect.height() < 150.0 {
+        return None; // no room
+    }
+    let font = FontId::proportional(11.0);
+    let ink = ui.visuals().text_color();
+    let long = |ui: &Ui, text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), ink).size().x;
+    let kind = colors.as_ref().ok().map(|tint| &tint.field.kind);
+    // The kinds that occur, in as many rows as they need.
+    let mut rows: Vec<Vec<&Class>> = Vec::new();
+    if let Some(Kind::Classes(classes)) = kind {
+        let mut left = 0.0;
+        for class in classes.iter().filter(|class| class.count > 0) {
+            let wide = 24.0 + long(ui, &class.name);
+            if rows.is_empty() || left < wide {
+                rows.push(Vec::new());
+                left = width;
+            }
+            left -= wide;
+            if let Some(row) = rows.last_mut() {
+                row.push(class);
+            }
+        }
+    }
+    let below = match (colors, kind) {
+        (Err(_), _) => 2.0 * 15.0,
+        (_, Some(Kind::Classes(_))) => rows.len() as f32 * 15.0,
+        (_, Some(Kind::Colors)) => 0.0,
+        _ => 25.0,
+    };
+    let size = vec2(width + 16.0, 17.0 + below + 10.0);
+    let place = Rect::from_min_size(rect.right_bottom() - size - vec2(10.0, 10.0), size);
+    let paper = ui.visuals().window_fill.gamma_multiply(0.9);
+    let edge = ui.visuals().window_stroke;
+    ui.painter().rect(place, CornerRadius::same(6), paper, edge, eframe::egui::StrokeKind::Inside);
+    ui.scope_builder(UiBuilder::new().max_rect(place.shrink2(vec2(8.0, 5.0))), |ui| {
+        ui.spacing_mut().item_spacing = vec2(10.0, 1.0);
+        ui.spacing_mut().interact_size.y = 14.0;
+        let value = under.map(|under| format!("{}: {}", under.name, under.text.as_deref().unwrap_or("none")));
+        line(ui, RichText::new(value.as_deref().unwrap_or(title)).font(font.clone()).strong());
+        match (colors, kind) {
+            (Err(why), _) => _ = ui.add(Label::new(RichText::new(why).font(font.clone())).selectable(false)),
+            (Ok(tint), Some(kind @ (Kind::Sequential { .. } | Kind::Diverging))) => {
+                strip(ui, kind, &tint.legend, under, &font);
+            }
+            _ => {
+                for row in rows {
+                    ui.horizontal(|ui| {
+                        ui.spacing_mut().item_spacing.x = 4.0;
+                        for class in row {
+                            let (swatch, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
+                            ui.painter().rect_filled(swatch, 2.0, color32(class.color));
+                            line(ui, RichText::new(&class.name).font(font.clone()));
+                            ui.add_space(2.0);
+                        }
+                    });
+                }
+            }
+        }
+    });
+    Some(place)
+}
+
+/// The bar lying down, with the numbers at its ends below it.
+fn strip(ui: &mut Ui, kind: &Kind, legend: &Legend, under: Option<&Under>, font: &FontId) {
+    const STEPS: usize = 64;
+    let (bar, _) = ui.allocate_exact_size(vec2(ui.available_width(), 9.0), Sense::hover());
+    let (painter, ink) = (ui.painter(), ui.visuals().text_color());
+    let step = bar.width() / STEPS as f32;
+    for i in 0..STEPS {
+        let min = pos2(bar.left() + i as f32 * step, bar.top());
+        let color = scale::color(kind, (i as f64 + 0.5) / STEPS as f64);
+        painter.rect_filled(Rect::from_min_size(min, vec2(step + 0.5, bar.height())), 0.0, color32(color));
+    }
+    painter.rect_stroke(bar, 0.0, ui.visuals().window_stroke, eframe::egui::StrokeKind::Outside);
+    let [low, high] = legend.range;
+    if let Some(under) = under.filter(|under| under.number.is_finite()) {
+        let x = bar.left() + bar.width() * ((under.number - low) / (high - low)).clamp(0.0, 1.0) as f32;
+        painter.vline(x, bar.y_range().expand(2.0), Stroke::new(3.0, ui.visuals().window_fill));
+        painter.vline(x, bar.y_range().expand(2.0), Stroke::new(1.5, ink));
+    }
+    ui.horizontal(|ui| {
+        line(ui, RichText::new(short(low)).font(font.clone()));
+        ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
+            line(ui, RichText::new(short(high)).font(font.clone()));
+        });
+    });
 }
 
 fn line(ui: &mut Ui, text: RichText) {

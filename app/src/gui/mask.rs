@@ -81,6 +81,7 @@ impl List<'_> {
         let widest = mask
             .groups
             .iter()
+            .take(SHOWN)
             .map(|group| ui.painter().layout_no_wrap(group.text(), font.clone(), egui::Color32::WHITE).size().x);
         let widest = widest.fold(24.0, f32::max);
         let mut left = SHOWN;

@@ -2,6 +2,7 @@
 //!
 //! What faces hide is drawn faintly. Lines are drawn over a wider, faint line of the opposite brightness.
 
+use std::cell::RefCell;
 use std::f32::consts::TAU;
 
 use eframe::egui::{
@@ -9,6 +10,7 @@ use eframe::egui::{
 };
 use glam::{DMat4, DVec2, DVec3};
 
+use super::spread::{Spread, Wanted};
 use crate::camera::{Camera, picture_point};
 use crate::scene::{Plane, Scene, Style};
 
@@ -92,6 +94,8 @@ pub struct Overlay<'a> {
     opaque: bool,
     cut: Option<Plane>,
     clip_from_world: DMat4,
+    /// Where the labels go that were asked for.
+    spread: RefCell<Spread>,
     /// Its colours.
     pub inks: Inks,
 }
@@ -109,6 +113,7 @@ impl<'a> Overlay<'a> {
             opaque: style.faces,
             cut: scene.cut(style, &camera),
             clip_from_world: camera.clip_from_view(aspect) * camera.view_from_world(),
+            spread: RefCell::default(),
             inks: Inks::new(ui),
         }
     }
@@ -169,6 +174,7 @@ impl<'a> Overlay<'a> {
     /// The same, dashed.
     pub fn dashed(&self, a: DVec3, b: DVec3, width: f32, color: Color32) {
         let Some((a, b)) = self.project(a).zip(self.project(b)) else { return };
+        self.spread.borrow_mut().line(&[a, b]);
         self.painter.line_segment([a, b], Stroke::new(width + 2.0, self.inks.halo));
         self.painter.extend(Shape::dashed_line(&[a, b], Stroke::new(width, color), 6.0, 4.0));
     }
@@ -225,6 +231,7 @@ impl<'a> Overlay<'a> {
     }
 
     fn stroke(&self, points: &[Pos2], width: f32, color: Color32, hidden: bool) {
+        self.spread.borrow_mut().line(points);
         let halo = Stroke::new(width + 2.0, Self::faded(self.inks.halo, hidden));
         self.painter.line(points.to_vec(), halo);
         self.painter.line(points.to_vec(), Stroke::new(width, Self::faded(color, hidden)));
@@ -233,6 +240,7 @@ impl<'a> Overlay<'a> {
     /// A filled disc.
     pub fn disc(&self, p: DVec3, radius: f32, color: Color32) {
         let Some(spot) = self.see(p) else { return };
+        self.spread.borrow_mut().mark(spot.at, radius);
         let halo = Stroke::new(1.5, Self::faded(self.inks.halo, spot.hidden));
         self.painter.circle(spot.at, radius, Self::faded(color, spot.hidden), halo);
     }
@@ -240,6 +248,7 @@ impl<'a> Overlay<'a> {
     /// A circle around a point.
     pub fn circle(&self, p: DVec3, radius: f32, width: f32, color: Color32) {
         let Some(spot) = self.see(p) else { return };
+        self.spread.borrow_mut().mark(spot.at, radius);
         self.painter.circle_stroke(spot.at, radius, Stroke::new(width + 2.0, Self::faded(self.inks.halo, spot.hidden)));
         self.painter.circle_stroke(spot.at, radius, Stroke::new(width, Self::faded(color, spot.hidden)));
     }
@@ -283,54 +292,70 @@ impl<'a> Overlay<'a> {
         self.stroke(&around, 2.5, color, hidden);
     }
 
-    /// Text beside a point, `aside` points of length away from it.
+    /// Text beside a point, `aside` points of length away from it if that place is free: [`Overlay::write`] finds where.
     pub fn label(&self, p: DVec3, aside: Vec2, text: &str, color: Color32) {
-        if let Some(spot) = self.see(p) {
-            self.label_at(spot.at + aside, text, color, spot.hidden);
-        }
-    }
-
-    /// Small text at a point that is known to be seen.
-    pub fn tag(&self, p: DVec3, text: &str, color: Color32) {
-        if let Some(at) = self.project(p).filter(|at| self.rect.contains(*at)) {
-            let galley = self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.0), color);
-            let padding = vec2(3.0, 0.0);
-            let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size() + 2.0 * padding);
-            self.painter.rect_filled(rect, CornerRadius::same(4), self.inks.paper);
-            self.painter.galley_with_override_text_color(rect.min + padding, galley, color);
+        if let Some(Spot { at, hidden }) = self.see(p) {
+            let text = text.to_owned();
+            self.spread.borrow_mut().wanted.push(Wanted { at, aside, text, color, hidden, is_fixed: false });
         }
     }
 
     /// Text in the middle between two points.
     pub fn label_between(&self, a: DVec3, b: DVec3, text: &str, color: Color32) {
         if let Some((a, b)) = self.project(a).zip(self.project(b)) {
-            self.label_at(a + (b - a) / 2.0, text, color, false);
+            let (at, aside, text) = (a + (b - a) / 2.0, Vec2::ZERO, text.to_owned());
+            self.spread.borrow_mut().wanted.push(Wanted { at, aside, text, color, hidden: false, is_fixed: true });
         }
     }
 
-    fn label_at(&self, at: Pos2, text: &str, color: Color32, hidden: bool) {
-        let galley = self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), color);
-        let padding = vec2(4.0, 1.0);
-        let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size() + 2.0 * padding);
-        // What is there to be read must be readable wherever it is.
-        let (opacity, color) = if hidden { (0.85, color.gamma_multiply(0.85)) } else { (1.0, color) };
-        self.painter.rect(
-            rect,
-            CornerRadius::same(4),
-            self.inks.paper.gamma_multiply(opacity),
-            Stroke::NONE,
-            StrokeKind::Inside,
-        );
-        self.painter.galley_with_override_text_color(rect.min + padding, galley, color);
+    /// Writes the labels that were asked for, so that they hide neither each other nor marks nor arrows, as far as there
+    /// is room; those asked for last come first. For the end of all drawing but of [`Overlay::tag`].
+    pub fn write(&self) {
+        self.write_caption();
+        let font = FontId::proportional(12.0);
+        let wanted = std::mem::take(&mut self.spread.borrow_mut().wanted);
+        for Wanted { at, aside, text, color, hidden, is_fixed } in wanted.into_iter().rev() {
+            let galley = self.painter.layout_no_wrap(text.clone(), font.clone(), color);
+            let padding = vec2(4.0, 1.0);
+            let size = galley.size() + 2.0 * padding;
+            let Some(rect) = self.spread.borrow_mut().place(self.rect, at, aside, size, text, is_fixed) else {
+                continue;
+            };
+            // What is there to be read must be readable wherever it is.
+            let (opacity, color) = if hidden { (0.85, color.gamma_multiply(0.85)) } else { (1.0, color) };
+            let paper = self.inks.paper.gamma_multiply(opacity);
+            self.painter.rect(rect, CornerRadius::same(4), paper, Stroke::NONE, StrokeKind::Inside);
+            self.painter.galley_with_override_text_color(rect.min + padding, galley, color);
+        }
     }
 
-    /// Text at the lower edge of the picture.
+    /// Small text at a point that is known to be seen, unless another label is there, or says the same.
+    pub fn tag(&self, p: DVec3, text: &str, color: Color32) {
+        if let Some(at) = self.project(p).filter(|at| self.rect.contains(*at)) {
+            let galley = self.painter.layout_no_wrap(text.to_owned(), FontId::proportional(11.0), color);
+            let padding = vec2(3.0, 0.0);
+            let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size() + 2.0 * padding);
+            if self.spread.borrow().is_taken(at, rect, text) {
+                return;
+            }
+            self.painter.rect_filled(rect, CornerRadius::same(4), self.inks.paper);
+            self.painter.galley_with_override_text_color(rect.min + padding, galley, color);
+        }
+    }
+
+    /// Text at the lower edge of the picture, which nothing covers.
     pub fn caption(&self, text: &str, color: Color32) {
+        self.spread.borrow_mut().caption = Some((text.to_owned(), color));
+    }
+
+    fn write_caption(&self) {
+        let Some((text, color)) = self.spread.borrow_mut().caption.take() else { return };
         let most = (self.rect.width() - 48.0).max(60.0);
-        let galley = self.painter.layout(text.to_owned(), FontId::monospace(14.0), color, most);
+        let galley = self.painter.layout(text, FontId::monospace(14.0), color, most);
         let padding = vec2(12.0, 6.0);
         let at = pos2(self.rect.center().x, self.rect.bottom() - 34.0);
         let rect = Align2::CENTER_BOTTOM.anchor_size(at, galley.size() + 2.0 * padding);
+        self.spread.borrow_mut().keep_free(rect);
         let edge = Stroke::new(1.0, color.gamma_multiply(0.5));
         self.painter.rect(rect, CornerRadius::same(7), self.inks.paper, edge, StrokeKind::Inside);
         self.painter.galley(rect.min + padding, galley, color);

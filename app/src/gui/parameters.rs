@@ -108,7 +108,7 @@ impl Row<'_> {
             (Value::Bool(mut on), _) => {
                 let mut changed = None;
                 ui.horizontal(|ui| {
-                    let field = self.explained(ui.checkbox(&mut on, &self.global.name));
+                    let field = self.explained(super::widgets::check_box(ui, &mut on, &self.global.name));
                     changed = field.changed().then_some(Value::Bool(on));
                     self.reset(ui, given, commands);
                 });

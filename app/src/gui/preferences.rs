@@ -4,11 +4,15 @@ use eframe::egui::{
     ComboBox, Context, DragValue, Frame, Grid, Id, Key, Margin, Modal, RichText, Slider, SliderClamping, Ui,
 };
 
+use super::widgets::check_box;
 use crate::camera::Up;
 use crate::command::{Command, Panel, Reload, ThemeChoice, ViewAction};
 use crate::navigation::{Preset, Turning};
 use crate::preferences::{Preferences, Start, Unit};
 use crate::session::{Dialog, Session};
+
+/// Points of width from which on the parts stand side by side.
+const BESIDE: f32 = 1000.0;
 
 /// Shows it.
 pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
@@ -17,12 +21,27 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
     }
     let frame = Frame::window(&ctx.global_style()).inner_margin(Margin::same(18));
     let response = Modal::new(Id::unique("preferences")).frame(frame).show(ctx, |ui| {
-        ui.set_width(540.0_f32.min(ui.ctx().content_rect().width() - 60.0));
+        let room = ui.ctx().content_rect().size();
+        // Side by side all is seen at once, also in a low window.
+        let beside = room.x >= BESIDE;
+        ui.set_width(if beside { BESIDE - 100.0 } else { 540.0_f32.min(room.x - 60.0) });
         ui.heading("Preferences");
         ui.add_space(8.0);
         let mut preferences = session.preferences;
-        let height = (ui.ctx().content_rect().height() - 170.0).max(120.0);
-        eframe::egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+        let height = (room.y - 170.0).max(120.0);
+        let area = eframe::egui::ScrollArea::vertical().max_height(height).content_margin(super::theme::beside_bar());
+        area.show(ui, |ui| {
+            if beside {
+                ui.columns(2, |columns| {
+                    window(&mut columns[0], session, &mut preferences, commands);
+                    columns[0].add_space(8.0);
+                    program(&mut columns[0], session, &mut preferences, commands);
+                    navigation(&mut columns[1], session, commands);
+                    columns[1].add_space(8.0);
+                    generations(&mut columns[1], session, &mut preferences, commands);
+                });
+                return;
+            }
             window(ui, session, &mut preferences, commands);
             ui.add_space(8.0);
             program(ui, session, &mut preferences, commands);
@@ -134,7 +153,7 @@ fn window(ui: &mut Ui, session: &Session, preferences: &mut Preferences, command
             for (panel, name) in PANELS {
                 let mut on = session.panels.is_open(panel);
                 let command = Command::Toggle(panel);
-                if ui.checkbox(&mut on, name).on_hover_text(command.describe().tooltip).changed() {
+                if check_box(ui, &mut on, name).on_hover_text(command.describe().tooltip).changed() {
                     commands.push(command);
                 }
             }

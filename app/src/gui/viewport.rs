@@ -108,12 +108,14 @@ impl Viewport {
         let inks = Overlay::new(ui, rect, camera, &frame.scene, &style);
         let spread = camera.spread(f64::from(2.0 * clicks::NEAR / rect.height()));
         let labels = &session.document.annotations.labels;
-        self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         clicks::take(ui, &response, &inks, session, &frame, spread, commands);
         self.context.show(&response, &inks, session, &frame, spread, commands);
         marks::show(ui, &inks, session, &frame);
+        inks.write();
+        self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
-        let legend = legend::show(ui, rect, session, &frame, colors.as_ref(), pointer);
+        let room = counts(ui, rect, &frame, legend::BESIDE);
+        let legend = legend::show(ui, room, session, &frame, colors.as_ref(), pointer);
         if style.axes {
             gizmo::show(ui, rect, &camera);
         }
@@ -162,17 +164,36 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame, legend: Op
         }
         (None, None) => {}
     }
-    let s = &frame.statistics;
-    let summary = format!(
-        "generation\u{a0}{generation}   {}\u{a0}vertices   {}\u{a0}edges   {}\u{a0}faces",
-        grouped(s.vertices),
-        grouped(s.edges),
-        grouped(s.faces)
-    );
-    let small = TextStyle::Small.resolve(ui.style());
-    let galley = ui.painter().layout(summary, small, visuals.weak_text_color(), (rect.width() - 20.0).max(60.0));
-    ui.painter().galley(rect.left_bottom() + vec2(10.0, -8.0 - galley.size().y), galley, visuals.weak_text_color());
     news(ui, rect, session, legend);
+}
+
+/// The counts at the lower edge, in as many lines as they need; no number is broken. Returns the room above them, where
+/// something as wide as `beside` may stand at the right.
+fn counts(ui: &Ui, rect: Rect, frame: &Frame, beside: f32) -> Rect {
+    let s = &frame.statistics;
+    let parts = [
+        format!("generation {}", frame.request.generation),
+        format!("{} vertices", grouped(s.vertices)),
+        format!("{} edges", grouped(s.edges)),
+        format!("{} faces", grouped(s.faces)),
+    ];
+    let (font, color) = (TextStyle::Small.resolve(ui.style()), ui.visuals().weak_text_color());
+    let lay = |text: String| ui.painter().layout_no_wrap(text, font.clone(), color);
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        match lines.last_mut() {
+            Some(line) if lay(format!("{line}   {part}")).size().x <= rect.width() - 20.0 => {
+                line.push_str("   ");
+                line.push_str(&part);
+            }
+            _ => lines.push(part),
+        }
+    }
+    let galley = lay(lines.join("\n"));
+    let size = galley.size();
+    ui.painter().galley(rect.left_bottom() + vec2(10.0, -8.0 - size.y), galley, color);
+    let apart = size.x + 30.0 + beside <= rect.width();
+    if apart { rect } else { rect.with_max_y(rect.bottom() - size.y - 6.0) }
 }
 
 /// What is going on, and what has just happened.

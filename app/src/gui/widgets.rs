@@ -186,10 +186,34 @@ pub fn first_choice(ui: &Ui, text: &str) -> Button<'static> {
     Button::new(RichText::new(text).color(visuals.selection.stroke.color)).fill(visuals.selection.bg_fill)
 }
 
+/// A check box whose box is seen also while it is not checked, on any ground.
+pub fn check_box(ui: &mut Ui, on: &mut bool, text: &str) -> Response {
+    outlined(ui, |ui| ui.checkbox(on, text))
+}
+
+/// One of several, of which one is on, likewise.
+pub fn radio(ui: &mut Ui, on: bool, text: &str) -> Response {
+    outlined(ui, |ui| ui.radio(on, text))
+}
+
+/// What is made has a line around it, which buttons have not.
+fn outlined(ui: &mut Ui, make: impl FnOnce(&mut Ui) -> Response) -> Response {
+    let before = ui.visuals().widgets.clone();
+    let line = Stroke::new(1.0, ui.visuals().weak_text_color().gamma_multiply(0.8));
+    let fill = ui.visuals().extreme_bg_color;
+    let widgets = &mut ui.visuals_mut().widgets;
+    for widget in [&mut widgets.inactive, &mut widgets.hovered] {
+        (widget.bg_stroke, widget.bg_fill) = (line, fill);
+    }
+    let response = make(ui);
+    ui.visuals_mut().widgets = before;
+    response
+}
+
 /// A switch as a check box.
 pub fn switch(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command) {
     let mut on = command.is_on(session).unwrap_or(false);
-    let response = ui.checkbox(&mut on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command));
+    let response = check_box(ui, &mut on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command));
     if response.changed() {
         commands.push(command);
     }

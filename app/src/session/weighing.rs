@@ -14,7 +14,7 @@ use super::Session;
 use crate::figure::{self, Page, Settings, Tile};
 use crate::inspect::mask::Mask;
 use crate::inspect::selection::Item;
-use crate::worker::Frame;
+use crate::worker::{Frame, release};
 use crate::{files, trace, typed_path};
 
 /// Then it is given up.
@@ -142,7 +142,8 @@ impl Session {
             };
             // What was stopped because something else was wanted may be wanted again.
             if current.stop.check() != Err(Stopped::ByUser) {
-                self.weighing.last = Some((current.of.clone(), result.map(Arc::new)));
+                let last = self.weighing.last.replace((current.of.clone(), result.map(Arc::new)));
+                release(last); // a mask may have as many weights as the mesh has vertices
             }
             self.weighing.current = None;
         }

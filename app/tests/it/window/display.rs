@@ -58,6 +58,29 @@ fn properties_of_the_program_are_offered_and_their_range_can_be_set() {
 }
 
 #[test]
+fn in_a_small_picture_the_colours_are_explained_in_a_strip() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::ColorBy(Quantity::Coordinate(0)));
+    colored(&mut window);
+    // How far above the lower edge it begins, as a part of the picture.
+    let part = |window: &mut Harness<'static, App>| {
+        window.run_steps(3);
+        let picture = window.get_by_label("Viewport").rect();
+        let titles: Vec<_> = window.query_all_by_label("coordinate x").map(|node| node.rect()).collect();
+        let title = titles.into_iter().find(|title| picture.contains_rect(*title)).expect("it is said in the picture");
+        (picture.bottom() - title.top()) / picture.height()
+    };
+    window.set_size(egui::vec2(1600.0, 1000.0));
+    assert!((0.2..0.35).contains(&part(&mut window)));
+    window.set_size(egui::vec2(700.0, 460.0));
+    assert!(part(&mut window) < 0.33);
+    window.state_mut().apply(Command::ColorBy(Quantity::Valence));
+    colored(&mut window);
+    window.run_steps(3);
+    assert!(window.query_all_by_label("4").next().is_some(), "the kinds have their names");
+}
+
+#[test]
 fn what_a_generation_lacks_is_said_in_place_of_colours() {
     let mut window = octahedron();
     window.state_mut().apply(Command::ColorBy(Quantity::Change));

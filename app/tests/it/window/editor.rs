@@ -243,6 +243,32 @@ fn numbers_are_raised_by_key_and_dragged_at_their_handle() {
 }
 
 #[test]
+fn with_ctrl_or_alt_a_number_is_dragged_itself_and_without_text_is_selected() {
+    for modifiers in [Modifiers::COMMAND, Modifiers::ALT, Modifiers::NONE] {
+        let mut window = editing("void f(mesh& S) {\n  forall v in S v$pos *= 2.5;\n}");
+        let editor = window.get_by_label("Program text").rect();
+        let font = egui::FontId::monospace(13.0);
+        let (width, height) = window.ctx.fonts_mut(|f| (f.glyph_width(&font, '0'), f.row_height(&font)));
+        let at = editor.min + egui::vec2(6.0 + 26.2 * width, 6.0 + 1.5 * height);
+        for i in 0..3 {
+            window.event_modifiers(egui::Event::PointerMoved(at + egui::vec2(0.1 * i as f32, 0.0)), modifiers);
+            window.step();
+        }
+        let mut press = |pressed, at| {
+            let button = egui::PointerButton::Primary;
+            window.event_modifiers(egui::Event::PointerMoved(at), modifiers);
+            window.step();
+            window.event_modifiers(egui::Event::PointerButton { pos: at, button, pressed, modifiers }, modifiers);
+            window.step();
+        };
+        press(true, at);
+        press(false, at + egui::vec2(15.0, 0.0));
+        let expected = if modifiers == Modifiers::NONE { "*= 2.5;\n}" } else { "*= 2.8;\n}" };
+        assert!(text(&window).ends_with(expected), "{modifiers:?}: {}", text(&window));
+    }
+}
+
+#[test]
 fn a_changed_text_is_run_as_typed_on_save_or_by_hand() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.vv");

@@ -58,6 +58,20 @@ fn everything_that_can_be_operated_has_a_name() {
 }
 
 #[test]
+fn preferences_are_seen_whole_in_a_low_window() {
+    let mut window = octahedron();
+    window.set_size(egui::vec2(1280.0, 600.0));
+    window.state_mut().apply(Command::Preferences);
+    window.run_steps(4);
+    let bottom = |window: &Harness<'static, App>, name: &str| window.get_by_label(name).rect();
+    let done = bottom(&window, "Done");
+    for name in ["Speed of playing", "Tab makes", "At start", "Up"] {
+        let row = window.query_all_by_label(name).next().unwrap().rect();
+        assert!(row.bottom() <= done.top() && row.top() > 0.0, "{name} {row} {done}");
+    }
+}
+
+#[test]
 fn tab_goes_through_all_that_can_be_operated() {
     let mut window = octahedron();
     window.state_mut().apply(Command::Toggle(Panel::Program)); // in which Tab means itself
