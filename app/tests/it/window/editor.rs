@@ -250,19 +250,19 @@ fn with_ctrl_or_alt_a_number_is_dragged_itself_and_without_text_is_selected() {
         let font = egui::FontId::monospace(13.0);
         let (width, height) = window.ctx.fonts_mut(|f| (f.glyph_width(&font, '0'), f.row_height(&font)));
         let at = editor.min + egui::vec2(6.0 + 26.2 * width, 6.0 + 1.5 * height);
+        window.event(egui::Event::ModifiersChanged(modifiers));
         for i in 0..3 {
-            window.event_modifiers(egui::Event::PointerMoved(at + egui::vec2(0.1 * i as f32, 0.0)), modifiers);
+            window.event(egui::Event::PointerMoved(at + egui::vec2(0.1 * i as f32, 0.0)));
             window.step();
         }
-        let mut press = |pressed, at| {
+        let to = at + egui::vec2(15.0, 0.0);
+        for (pressed, at) in [(true, at), (false, to)] {
             let button = egui::PointerButton::Primary;
-            window.event_modifiers(egui::Event::PointerMoved(at), modifiers);
+            window.event(egui::Event::PointerMoved(at));
             window.step();
-            window.event_modifiers(egui::Event::PointerButton { pos: at, button, pressed, modifiers }, modifiers);
+            window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
             window.step();
-        };
-        press(true, at);
-        press(false, at + egui::vec2(15.0, 0.0));
+        }
         let expected = if modifiers == Modifiers::NONE { "*= 2.5;\n}" } else { "*= 2.8;\n}" };
         assert!(text(&window).ends_with(expected), "{modifiers:?}: {}", text(&window));
     }
