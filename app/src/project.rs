@@ -310,4 +310,31 @@ mod tests {
             assert_eq!(Project::from_json(later.as_bytes(), None).unwrap_err(), "was made by a later version of vv");
         }
     }
+
+    #[test]
+    fn paths_move_in_the_whole_row_of_programs_that_made_the_mesh() {
+        let made = |path: PathBuf, mesh| {
+            let (text, params) = ("".into(), BTreeMap::new());
+            let recipe = Recipe { path, text, includes_revision: 0, mesh, mesh_revision: 0, rule: None, params };
+            MeshSource::Result(Arc::new(Request { recipe: Arc::new(recipe), generation: 2 }))
+        };
+        // That of the program which ships with vv stays where it is.
+        let row = |folder: &Path| {
+            let file = MeshSource::File(folder.join("m.obj"));
+            made(Path::new(NOWHERE).join("loop.vv"), made(folder.join("p.vv"), file))
+        };
+        let (old, new) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        let document = Document { mesh: row(old.path()), ..document() };
+        let bytes = Project::of(&document).to_json(Some(old.path())).unwrap();
+        let back = Project::from_json(&bytes, Some(new.path())).unwrap().into_document();
+        assert_eq!(back.mesh, row(new.path()));
+    }
+
+    #[test]
+    fn a_view_from_nowhere_is_refused() {
+        let mut project = Project::of(&document());
+        project.camera.distance = 0.0;
+        let bytes = project.to_json(None).unwrap();
+        assert_eq!(Project::from_json(&bytes, None).unwrap_err(), "is no project of vv: its view is nowhere");
+    }
 }

@@ -388,4 +388,30 @@ mod tests {
         };
         assert!(trouble.contains("there is no directory"), "{trouble}");
     }
+
+    #[test]
+    fn of_many_files_the_latest_are_remembered() {
+        let mut settings = Settings::default();
+        let path = |i: usize| std::path::absolute(format!("{i}.vv")).unwrap();
+        (0..20).for_each(|i| settings.remember(&path(i)));
+        assert_eq!((settings.recent.len(), &settings.recent[0]), (RECENT, &path(19)));
+    }
+
+    #[test]
+    fn of_several_windows_that_crashed_the_newest_is_told_of() {
+        let folder = tempfile::tempdir().unwrap();
+        for text in ["// one", "// other"] {
+            Store::open(folder.path()).unwrap().keep(Some(project(text)));
+        }
+        let store = Store::open(folder.path()).unwrap();
+        for (old, expected) in [("// one", "// other"), ("// other", "// one")] {
+            for file in fs::read_dir(folder.path().join("recovery")).unwrap() {
+                let path = file.unwrap().path();
+                let age = if fs::read_to_string(&path).unwrap().contains(old) { 1000 } else { 2000 };
+                let time = std::time::UNIX_EPOCH + std::time::Duration::from_secs(age);
+                File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
+            }
+            assert_eq!(store.orphan().unwrap().project, project(expected));
+        }
+    }
 }

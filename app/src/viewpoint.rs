@@ -329,4 +329,12 @@ mod tests {
         check_mistake("eye 0 0 1 target 0 0 0 [orthographic 0]", "the height of what is seen is more than 0");
         check_mistake("eye 0 0 1 target 0 0 0 [orthographic 1e9]", "the eye is too near or too far for this height");
     }
+
+    #[test]
+    fn what_is_nearly_zero_is_written_as_zero() {
+        let bounds = Sphere { center: DVec3::ZERO, radius: 1.0 };
+        let world_from_view = DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2);
+        let camera = Camera { world_from_view, distance: 8.0, ..Camera::standard(bounds, 1.0) };
+        assert!(to_text(&camera).starts_with("vv view: eye 8 0 0 target 0 0 0 up 0 1 0 "), "{}", to_text(&camera));
+    }
 }

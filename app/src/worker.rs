@@ -459,6 +459,15 @@ mod tests {
     }
 
     #[test]
+    fn another_recipe_begins_with_nothing_printed() {
+        let mut worker = worker(1 << 30);
+        finish(&mut worker, request("void f(mesh& S) { print(\"said\"); }", 2)).unwrap();
+        assert_eq!((worker.console().len(9), worker.reached().len()), (2, 3));
+        finish(&mut worker, request("void f(mesh& S) { }", 1)).unwrap();
+        assert_eq!((worker.console().len(9), worker.reached().len()), (0, 2));
+    }
+
+    #[test]
     fn generations_that_no_memory_was_left_for_come_out_the_same() {
         let text = "void f(mesh& S) { forall v in S v$pos *= 1.5 + random(); }";
         let (mut roomy, mut tight) = (worker(1 << 30), worker(0));
@@ -504,6 +513,7 @@ mod tests {
         };
         assert_eq!(size(Value::Double(0.25)), 0.25);
         assert_eq!(size(Value::Double(7.0)), 0.5);
+        assert_eq!(size(Value::Double(-1.0)), 0.5);
         assert_eq!(size(Value::Bool(true)), 0.5);
     }
 }

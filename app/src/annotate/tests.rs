@@ -286,6 +286,47 @@ fn signed_numbers_have_zero_in_the_middle_of_their_range() {
 }
 
 #[test]
+fn where_nearly_all_numbers_are_zero_the_others_decide_the_range() {
+    let range = |numbers: Vec<f64>| {
+        automatic_range(&Field { numbers, kind: Kind::Diverging, ..ball(0).field("gauss").unwrap() })
+    };
+    let few = |x: f64| [vec![0.0; 1000], vec![x]].concat();
+    assert_eq!([range(few(2.0)), range(few(-3.0)), range(few(0.0))], [[-2.0, 2.0], [-3.0, 3.0], [-1.0, 1.0]]);
+}
+
+#[test]
+fn a_range_that_is_none_is_not_taken() {
+    let ball = ball(1);
+    let field = Arc::new(ball.field("x").unwrap());
+    let range = |range| Tint::of(Arc::clone(&field), &ball.scene, range).legend.range;
+    assert_eq!(range(Some([0.25, 0.5])), [0.25, 0.5]);
+    assert_eq!([range(Some([3.0, 1.0])), range(Some([1.0, 1.0]))], [range(None); 2]);
+}
+
+#[test]
+fn the_last_class_of_valences_is_called_by_the_one_number_in_it() {
+    let last = |n: usize| {
+        let corners: String = (0..n).map(|i| (i as f64).sin_cos()).map(|(s, c)| format!("v {c} {s} 0\n")).collect();
+        let faces: String = (0..n).map(|i| format!("f 1 {} {}\n", i + 2, (i + 1) % n + 2)).collect();
+        let field = Example::obj(&format!("v 0 0 1\n{corners}{faces}")).field("valence").unwrap();
+        let Kind::Classes(classes) = field.kind else { panic!("valences are classes") };
+        classes.last().unwrap().name.clone()
+    };
+    assert_eq!([last(9), last(10)], ["9", "≥ 9"]);
+}
+
+/// M. Meyer et al., figure 4: half of the triangle at the obtuse angle.
+#[test]
+fn a_flat_apex_has_half_of_its_obtuse_triangles() {
+    let apex = "v 0 0 0.25\nv 1 0 0\nv -0.5 0.8660254037844386 0\nv -0.5 -0.8660254037844386 0\n";
+    let field = Example::obj(&format!("{apex}f 1 2 3\nf 1 3 4\nf 1 4 2\n")).field("gauss").unwrap();
+    let (square, dot) = (1.0 + 0.0625, -0.5 + 0.0625);
+    let (angle, area) = (f64::acos(dot / square), f64::sqrt(square * square - dot * dot) / 2.0);
+    let expected = (std::f64::consts::TAU - 3.0 * angle) / (3.0 * area / 2.0);
+    assert!((field.numbers[0] - expected).abs() < 1e-9, "{} is not {expected}", field.numbers[0]);
+}
+
+#[test]
 fn each_corner_gets_the_word_of_its_vertex_or_face() {
     let ball = ball(1);
     let tint = ball.tint("x");
@@ -445,6 +486,17 @@ mod arrows {
 
     fn arrows(example: &Example, arrows: &Arrows) -> ArrowSet {
         ArrowSet::new(&example.subject(), arrows, &Stop::new()).unwrap()
+    }
+
+    #[test]
+    fn one_in_twenty_arrows_is_longer_than_the_unit() {
+        let mut mesh = Mesh::new();
+        let wind = mesh.declare_vertex_property("wind", Value::Vec(DVec3::ZERO));
+        for i in 1..=101 {
+            let v = mesh.create().unwrap();
+            mesh.set_vertex_value(wind, v, Value::Vec(DVec3::X * f64::from(i)));
+        }
+        assert_eq!(arrows(&Example::of(mesh), &Arrows::Property("wind".to_owned())).unit, 96.0);
     }
 
     #[test]

@@ -300,3 +300,11 @@ fn the_way_to_another_view_begins_here_and_ends_there() {
     let half = camera().on_the_way(there, 0.5);
     assert!(half.is_finite() && (half.distance / (40.0 * camera().distance).sqrt() - 1.0).abs() < 1e-12);
 }
+
+#[test]
+fn who_is_nearer_or_farther_than_zooming_goes_is_not_thrown_back() {
+    for distance in [1e-7, 1e7] {
+        let camera = Camera { distance, ..camera() };
+        assert_eq!(camera.zoom(DVec2::ZERO, 1.0, BOUNDS).distance, distance);
+    }
+}

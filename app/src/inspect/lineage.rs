@@ -150,4 +150,11 @@ mod tests {
         let born = |number, generation| lineage.birth(v(number), generation);
         assert_eq!([born(1, 2), born(2, 2), born(3, 2), born(4, 2), born(4, 1)], [0, 0, 1, 2, 1]);
     }
+
+    #[test]
+    fn a_generation_that_is_computed_again_changes_nothing() {
+        let lineage = lineage();
+        lineage.add(1, &Survivors::First(0));
+        assert_eq!([lineage.carry(v(3), 0, 1), lineage.carry(v(1), 0, 3)], [Some(v(3)), None]);
+    }
 }

@@ -149,4 +149,18 @@ mod tests {
         bent[2].z = 1.0;
         assert!(FaceMeasure::of(&bent).warp() > 0.05);
     }
+
+    #[test]
+    fn a_ridge_is_sharper_than_a_plane_and_a_valley_blunter() {
+        let angle = |z: f64| {
+            let roof = format!("v 0 0 0\nv 0 1 0\nv -1 0 {z}\nv 1 0 {z}\nf 2 1 4\nf 1 2 3\n");
+            let (mesh, _) = vv::io::read(roof.as_bytes(), vv::io::Format::Obj, &Default::default()).unwrap();
+            let ends: Vec<Vertex> = mesh.vertices().take(2).collect();
+            dihedral(&mesh, [ends[0], ends[1]]).map(|x| x.round())
+        };
+        // Outside is above: sides that go down make a ridge.
+        let [down, flat, up] = [-1.0, 0.0, 1.0].map(angle);
+        assert_eq!(flat, Some(180.0));
+        assert_eq!([down, up], [Some(90.0), Some(270.0)]);
+    }
 }

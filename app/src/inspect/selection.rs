@@ -130,3 +130,22 @@ fn carried(item: Item, from: u64, to: u64, lineage: &Lineage) -> Option<Item> {
     }
     item.renamed(|v| lineage.carry(v, from, to))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_too_many_things_the_oldest_goes() {
+        let mut mesh = Mesh::new();
+        let (mut selection, lineage) = (Selection::default(), Lineage::default());
+        for _ in 0..MOST + 2 {
+            let v = mesh.create().unwrap();
+            mesh.set.add(v);
+            selection.toggle(Item::Vertex(v), 0, &lineage);
+        }
+        let (shown, gone) = selection.shown(&mesh, 0, &lineage);
+        assert_eq!((shown.len(), gone.len()), (MOST, 0));
+        assert_eq!(Some(shown[0]), Vertex::from_index(2).map(Item::Vertex));
+    }
+}

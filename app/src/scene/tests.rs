@@ -217,3 +217,28 @@ fn a_scene_that_nobody_waits_for_is_given_up() {
     stop.request(Stopped::ByUser);
     assert!(matches!(Scene::new(&mesh, &faces, None, &stop), Err(Stopped::ByUser)));
 }
+
+#[test]
+fn a_plane_keeps_the_part_of_a_ray_that_lies_before_it() {
+    let plane = Plane { normal: DVec3::X, place: 1.0 };
+    let kept = |x: f64, direction| plane.kept(Ray { origin: DVec3::X * x, direction });
+    let far = f64::INFINITY;
+    assert_eq!(
+        [kept(0.0, DVec3::X), kept(0.0, DVec3::NEG_X), kept(0.0, DVec3::Y)],
+        [[0.0, 1.0], [0.0, far], [0.0, far]]
+    );
+    assert_eq!(
+        [kept(3.0, DVec3::NEG_X), kept(3.0, DVec3::X), kept(3.0, DVec3::Y)],
+        [[2.0, far], [far, far], [far, far]]
+    );
+}
+
+#[test]
+fn a_scene_knows_its_lowest_place_and_its_longest_edge_between_faces() {
+    // The first edges are long, the last ones short.
+    let scene = scene("v 0 0 8\nv 1 0 -1\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n");
+    assert_eq!(scene.lowest, DVec3::new(0.0, 0.0, -1.0));
+    let longest = f64::from(scene.mesh.longest_inner_edge) * scene.unit;
+    assert!((longest - 82f64.sqrt()).abs() < 1e-5, "{longest}");
+    assert_eq!(scene_of(&Mesh::new()).lowest, DVec3::ZERO);
+}

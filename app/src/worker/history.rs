@@ -153,3 +153,55 @@ pub(super) fn frame(
         },
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::MeshSource;
+
+    /// Six generations of one size, each with its picture.
+    fn history() -> History {
+        let recipe = Arc::new(Recipe {
+            path: "test.vv".into(),
+            text: "".into(),
+            includes_revision: 0,
+            mesh: MeshSource::Empty,
+            mesh_revision: 0,
+            rule: None,
+            params: BTreeMap::new(),
+        });
+        let mut history = History::new(Arc::clone(&recipe));
+        for generation in 0..6 {
+            let mut mesh = Mesh::new();
+            for _ in 0..100 {
+                let v = mesh.create().unwrap();
+                mesh.set.add(v);
+            }
+            let made = Generation { mesh, ..Generation::default() };
+            let request = Request { recipe: Arc::clone(&recipe), generation };
+            let picture = frame(&request, &made, None, &Stop::new()).unwrap();
+            history.generations.insert(generation, Kept { generation: made, frame: Some(Arc::new(picture)) });
+        }
+        history
+    }
+
+    /// What is left with room for so many meshes, of which a picture takes two: `(3)` has lost its picture.
+    #[track_caller]
+    fn check(meshes: usize, current: u64, compared: Option<u64>, expected: &str) {
+        let mut history = history();
+        let size = history.generations[&0].generation.mesh.bytes();
+        history.evict(meshes * size, current, compared);
+        let show = |(g, kept): (&u64, &Kept)| if kept.frame.is_some() { g.to_string() } else { format!("({g})") };
+        assert_eq!(history.generations.iter().map(show).collect::<Vec<_>>().join(" "), expected);
+    }
+
+    #[test]
+    fn pictures_go_before_meshes_and_the_farthest_first_but_never_the_first_and_the_current() {
+        check(18, 2, None, "0 1 2 3 4 5");
+        check(14, 2, None, "0 1 2 3 (4) (5)");
+        check(7, 2, None, "0 2 (3)");
+        check(0, 2, None, "0 2");
+        check(13, 5, None, "0 (1) (2) (3) 4 5");
+        check(0, 2, Some(4), "0 2 4");
+    }
+}

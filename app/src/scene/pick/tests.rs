@@ -217,3 +217,24 @@ fn what_is_cut_away_is_not_meant_and_hides_nothing() {
     assert!(scene.hides(whole.ray, None, DVec3::new(0.2, 0.2, 0.0), 1e-3));
     assert!(!scene.hides(whole.ray, open.cut, DVec3::new(0.2, 0.2, 0.0), 1e-3));
 }
+
+#[test]
+fn distances_and_cuts_are_in_units_of_the_world() {
+    let mut cube = mesh(CUBE);
+    cube.vertices().for_each(|v| cube.set_position(v, 100.0 * cube.position(v)));
+    let (scene, _) = indexed(&cube);
+    let whole = pointer([50.0, 20.0, 900.0], [50.0, 20.0, 0.0]);
+    let at = |cut| scene.pick(&Pointer { cut, ..whole }).unwrap().point.z.round();
+    let plane = |place| Some(Plane { normal: DVec3::Z, place });
+    assert_eq!([at(None), at(plane(101.0)), at(plane(50.0))], [100.0, 100.0, -100.0]);
+    let hides = |z: f64| scene.hides(whole.ray, None, DVec3::new(50.0, 20.0, z), 1.0);
+    assert_eq!([hides(50.0), hides(99.5)], [true, false]);
+}
+
+#[test]
+fn an_edge_between_two_faces_that_cannot_be_drawn_is_picked() {
+    let mut pair = mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 5 6 3\n");
+    let corners: Vec<Vertex> = pair.vertices().collect();
+    [corners[0], corners[4]].into_iter().for_each(|v| pair.set_position(v, DVec3::NAN));
+    check(&pair, pointer([1.0, 0.5, 5.0], [1.0, 0.5, 0.0]), "edge v2 v3");
+}
