@@ -215,12 +215,14 @@ impl<'a> Checker<'a> {
 
     /// What `forall` walks and `is` asks: a mesh or a ring.
     pub(super) fn domain(&mut self, e: &'a tree::Expr, item: Option<&'a tree::Expr>) -> Option<Domain> {
+        let read_before = self.body.effects.reads_old;
         let (inner, old) = self.without_mark(e);
         let found = self.operand(inner, name_of(item))?;
         match found.ty {
             Type::Mesh if !old => Some(Domain::Set(found)),
             VERTEX | Type::Ring => self.ring_of(found, old, e).map(Domain::Ring),
             Type::Mesh => {
+                self.body.effects.reads_old = read_before;
                 self.fail(
                     Diagnostic::error(e.span, "a mesh has no old members, its vertices have old rings and properties")
                         .fix("the mesh as it is", e.span, self.text(inner.span)),

@@ -84,3 +84,9 @@ fn sizes_of_meshes() {
     let hint = "`forall v in S n += 1;` those of a mesh";
     check_statement("print S.size();", "vv has no functions that belong to values", hint);
 }
+
+#[test]
+fn old_meshes() {
+    let message = "a mesh has no old members, its vertices have old rings and properties";
+    check_statement("forall v in `S print v;", message, "the mesh as it is");
+}
