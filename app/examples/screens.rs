@@ -25,7 +25,8 @@ type Window = Harness<'static, App>;
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Pixels, and pixels in a point.
-const SIZES: [(u32, u32, f32); 4] = [(800, 500, 1.0), (1280, 720, 1.0), (1920, 1080, 1.0), (3840, 2160, 2.0)];
+const SIZES: [(u32, u32, f32); 5] =
+    [(800, 500, 1.0), (900, 600, 1.0), (1280, 720, 1.0), (1920, 1080, 1.0), (3840, 2160, 2.0)];
 
 /// What is done to a new window.
 struct State {
