@@ -112,7 +112,7 @@ fn fair_split(sections: &[Section], columns: usize) -> usize {
 }
 
 fn show_section(ui: &mut Ui, section: &Section) {
-    ui.label(RichText::new(section.title).strong());
+    super::widgets::bold(ui, section.title);
     ui.add_space(2.0);
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();

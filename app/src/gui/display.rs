@@ -3,7 +3,7 @@
 use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
 use vv::mesh::Type;
 
-use super::widgets::{heading, switch, tooltip};
+use super::widgets::{button, heading_with, switch, tooltip};
 use crate::annotate::{Annotations, Arrows, Label, Quantity};
 use crate::command::Command;
 use crate::scene::{Axis, Cut, Style, Surface};
@@ -11,7 +11,7 @@ use crate::session::Session;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    heading(ui, "Display");
+    heading_with(ui, "Display", |ui| button(ui, session, commands, Command::Fit));
     Grid::new("display").num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {
         switch(ui, session, commands, Command::Faces);
         switch(ui, session, commands, Command::Smooth);

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align, Grid, Layout, RichText, ScrollArea, Ui, Vec2b};
 
-use super::widgets::{button, grouped, heading, seconds};
+use super::widgets::{grouped, heading, seconds};
 use super::{display, parameters, selection, theme};
 use crate::command::Command;
 use crate::session::{Purpose, Session};
@@ -26,7 +26,6 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         selection::show(ui, session, commands);
         parameters::show(ui, session, commands);
         display::show(ui, session, commands);
-        button(ui, session, commands, Command::Fit);
         ui.separator();
         match session.frame() {
             Some(frame) => statistics(ui, frame),

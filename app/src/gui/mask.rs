@@ -73,9 +73,9 @@ impl List<'_> {
     fn show(&self, ui: &mut Ui, mask: &Mask, commands: &mut Vec<Command>) {
         let before = self.generation.saturating_sub(1);
         if mask.is_affine {
-            plain(ui, &format!("{} as a sum of vertices of generation {before}", mask.of));
+            plain(ui, &format!("{} as a sum of vertices of generation\u{a0}{before}", mask.of));
         } else {
-            plain(ui, &format!("{} is no sum of vertices of generation {before}", mask.of));
+            plain(ui, &format!("{} is no sum of vertices of generation\u{a0}{before}", mask.of));
         }
         let font = TextStyle::Monospace.resolve(ui.style());
         let widest = mask

@@ -1,9 +1,9 @@
 //! The menu bar.
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{Color32, Key, MenuBar, Stroke, TextFormat, TextStyle, Ui};
+use eframe::egui::{Align, Color32, Key, Layout, MenuBar, Stroke, TextFormat, TextStyle, Ui};
 
-use super::widgets::menu_item;
+use super::widgets::{TICK, menu_item};
 use super::{menu_keys, views};
 use crate::command::{Command, MENUS, Menu, outer};
 use crate::document::MeshSource;
@@ -38,16 +38,17 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 entries(ui, session, commands, menu);
                 if menu.title == "File" && !session.recent().is_empty() {
                     ui.separator();
-                    inner(ui, "Open recent", |ui| recent(ui, session, commands));
+                    inner(ui, "Open recent", has_ticks(session, menu), |ui| recent(ui, session, commands));
                 }
                 if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
                     ui.separator();
                 }
+                let ticks = has_ticks(session, menu);
                 for more in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
-                    inner(ui, more.title, |ui| entries(ui, session, commands, more));
+                    inner(ui, more.title, ticks, |ui| entries(ui, session, commands, more));
                 }
                 if menu.title == "Camera" {
-                    inner(ui, "Saved viewpoints", |ui| views::show(ui, session, commands));
+                    inner(ui, "Saved viewpoints", ticks, |ui| views::show(ui, session, commands));
                 }
             });
             buttons.push(button.response);
@@ -80,14 +81,22 @@ fn title(ui: &Ui, text: &str) -> LayoutJob {
     job
 }
 
-/// A menu in a menu.
-fn inner(ui: &mut Ui, title: &str, show: impl FnOnce(&mut Ui)) {
-    let button = ui.menu_button(title, show);
+/// A menu in a menu, in line with the entries of one with `ticks`.
+fn inner(ui: &mut Ui, title: &str, ticks: bool, show: impl FnOnce(&mut Ui)) {
+    let mut text = LayoutJob::default();
+    let format = TextFormat::simple(TextStyle::Button.resolve(ui.style()), Color32::PLACEHOLDER);
+    text.append(title, if ticks { TICK } else { 0.0 }, format);
+    let button = ui.menu_button(text, show);
     menu_keys::entry(ui, &button.response);
 }
 
+/// Whether some entry of a menu may have a tick before it.
+fn has_ticks(session: &Session, menu: &Menu) -> bool {
+    menu.groups.iter().copied().flatten().any(|command| command.is_on(session).is_some())
+}
+
 fn entries(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, menu: &Menu) {
-    let ticks = menu.groups.iter().copied().flatten().any(|command| command.is_on(session).is_some());
+    let ticks = has_ticks(session, menu);
     for (i, group) in menu.groups.iter().enumerate() {
         if i > 0 {
             ui.separator();
@@ -122,11 +131,15 @@ fn examples(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         for groups in columns {
             ui.vertical(|ui| {
                 ui.set_width(186.0);
+                ui.spacing_mut().item_spacing.y = 3.0;
                 for group in groups {
                     ui.weak(group.title());
-                    for exhibit in EXHIBITS.iter().filter(|e| e.group == *group) {
-                        example(ui, session, commands, exhibit);
-                    }
+                    let filled = Layout::top_down_justified(Align::Min);
+                    ui.with_layout(filled, |ui| {
+                        for exhibit in EXHIBITS.iter().filter(|e| e.group == *group) {
+                            example(ui, session, commands, exhibit);
+                        }
+                    });
                     ui.add_space(6.0);
                 }
             });

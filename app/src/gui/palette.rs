@@ -13,7 +13,7 @@ use crate::library;
 use crate::session::{Dialog, Session};
 
 const ROW: f32 = 28.0;
-const WIDTH: f32 = 560.0;
+const WIDTH: f32 = 600.0;
 
 struct Entry {
     group: &'static str,
@@ -171,6 +171,9 @@ fn entries(session: &Session) -> Vec<Entry> {
     entries
 }
 
+/// Points for the name of a menu.
+const GROUP: f32 = 60.0;
+
 fn row(ui: &mut Ui, session: &Session, entry: &Entry, matched: &Match, selected: bool) -> (egui::Response, bool) {
     let enabled = entry.command.is_enabled(session);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
@@ -206,13 +209,19 @@ fn row(ui: &mut Ui, session: &Session, entry: &Entry, matched: &Match, selected:
     ui.painter().galley(Align2::LEFT_CENTER.align_size_within_rect(galley.size(), inner).min, galley, text);
     let keys = entry.command.describe().shortcuts.first().map(|s| super::widgets::keys(ui, s)).unwrap_or_default();
     let right = ui.painter().text(inner.right_center(), Align2::RIGHT_CENTER, &keys, small.clone(), weak);
-    let tip = format!("{}   {}", entry.group, if width < 0.45 * inner.width() { entry.tooltip.as_str() } else { "" });
+    // Menu and explanation stand in columns, unless a long name needs the room.
     let from = inner.left() + (width + 18.0).max(0.36 * inner.width());
-    let room = Rect::from_min_max(egui::pos2(from, rect.top()), egui::pos2(right.left() - 12.0, rect.bottom()));
-    let mut job = LayoutJob::simple_singleline(tip.trim().to_owned(), small, weak);
-    job.wrap = egui::text::TextWrapping::truncate_at_width(room.width().max(10.0));
-    job.halign = Align::LEFT;
-    let galley = ui.painter().layout_job(job);
-    ui.painter().galley(Align2::LEFT_CENTER.align_size_within_rect(galley.size(), room).min, galley, weak);
+    let words = |from: f32, to: f32, text: &str| {
+        let room = Rect::from_min_max(egui::pos2(from, rect.top()), egui::pos2(to, rect.bottom()));
+        let mut job = LayoutJob::simple_singleline(text.to_owned(), small.clone(), weak);
+        job.wrap = egui::text::TextWrapping::truncate_at_width(room.width().max(10.0));
+        job.halign = Align::LEFT;
+        let galley = ui.painter().layout_job(job);
+        ui.painter().galley(Align2::LEFT_CENTER.align_size_within_rect(galley.size(), room).min, galley, weak);
+    };
+    words(from, right.left() - 12.0, entry.group);
+    if width < 0.45 * inner.width() {
+        words(from + GROUP, right.left() - 12.0, &entry.tooltip);
+    }
     (response, enabled)
 }

@@ -5,7 +5,7 @@ use vv::ir::{Global, Param, Program};
 use vv::mesh::Value;
 use vv::source::FileId;
 
-use super::widgets::tooltip;
+use super::widgets::{bold, tooltip};
 use crate::command::Command;
 use crate::session::Session;
 
@@ -20,7 +20,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         // The narrowest panel has room for all three.
         ui.spacing_mut().item_spacing.x = 4.0;
         ui.spacing_mut().button_padding.x = 5.0;
-        ui.label(RichText::new("Parameters").strong());
+        bold(ui, "Parameters");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let reset = Command::ResetParams;
             let button = ui.add_enabled(reset.is_enabled(session), Button::new("Reset all"));

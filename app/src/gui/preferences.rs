@@ -92,7 +92,7 @@ const PANELS: [(Panel, &str); 4] = [
 ];
 
 fn section(ui: &mut Ui, title: &str, rows: impl FnOnce(&mut Ui)) {
-    ui.label(RichText::new(title).strong());
+    super::widgets::bold(ui, title);
     ui.add_space(2.0);
     Grid::new(title).num_columns(2).min_col_width(150.0).spacing([16.0, 7.0]).show(ui, rows);
 }

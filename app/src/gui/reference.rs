@@ -71,17 +71,20 @@ impl Reference {
         ui.set_max_width(ui.available_width().min(760.0));
         let query = self.query.trim().to_lowercase();
         let fits = |section: &Section| query.is_empty() || section.text().to_lowercase().contains(&query);
+        let field = TextEdit::singleline(&mut self.query).hint_text("find").desired_width(f32::INFINITY);
+        let field = ui.add(field);
+        // Who has opened it looks for something; what is typed is not meant for the program any more.
+        let pass = ui.ctx().cumulative_pass_nr();
+        if pass > self.shown + 1 {
+            field.request_focus();
+        }
+        self.shown = pass;
+        field.accessible_name("Find in the reference");
         ui.horizontal_wrapped(|ui| {
-            let field = ui.add(TextEdit::singleline(&mut self.query).hint_text("find").desired_width(120.0));
-            // Who has opened it looks for something; what is typed is not meant for the program any more.
-            let pass = ui.ctx().cumulative_pass_nr();
-            if pass > self.shown + 1 {
-                field.request_focus();
-            }
-            self.shown = pass;
-            field.accessible_name("Find in the reference");
+            ui.spacing_mut().item_spacing = vec2(14.0, 3.0);
             for (i, section) in SECTIONS.iter().enumerate().filter(|(_, s)| fits(s)) {
-                if ui.link(&section.title).clicked() {
+                // A name of two words is not broken.
+                if ui.link(section.title.replace(' ', "\u{a0}")).accessible_name(&section.title).clicked() {
                     self.wanted = Some(i);
                 }
             }

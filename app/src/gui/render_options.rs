@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Context, Key, Modifiers, ScrollArea, Window, vec2};
 
 use super::display;
-use super::widgets::{button, switch};
+use super::widgets::switch;
 use crate::command::{Command, ViewAction};
 use crate::session::Session;
 
@@ -24,7 +24,6 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
             ScrollArea::vertical().max_height(room.max(160.0)).show(ui, |ui| {
                 display::show(ui, session, commands);
                 switch(ui, session, commands, Command::View(ViewAction::Orthographic));
-                button(ui, session, commands, Command::Fit);
             });
         });
     let typing = ctx.egui_wants_keyboard_input();

@@ -8,7 +8,7 @@ use vv::mesh::Vertex;
 
 use super::clicks::point_at;
 use super::overlay::{Inks, around};
-use super::widgets::{heading, icon};
+use super::widgets::{bold, heading, icon};
 use crate::command::{Command, Inspect};
 use crate::inspect::ring::{Entry, Ring};
 use crate::inspect::selection::Item;
@@ -29,7 +29,7 @@ pub fn show(ui: &mut Ui, session: &Session, frame: &Frame, v: Vertex, commands: 
     let panel = Panel { session, frame };
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        ui.label(RichText::new("Ring").strong());
+        bold(ui, "Ring");
         sample(ui, Inks::new(ui).ring, false);
     });
     let beside = old.is_some() && ui.available_width() > 430.0;
@@ -81,7 +81,7 @@ impl Panel<'_> {
     /// The ring before the step, and whether it is seen in the picture.
     fn old(&self, ui: &mut Ui, old: &Ring, before: u64, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
-            ui.label(RichText::new(format!("Old ring, generation {before}")).strong());
+            bold(ui, &format!("Old ring, generation {before}"));
             sample(ui, Inks::new(ui).old, true);
         });
         super::widgets::switch(ui, self.session, commands, Command::Inspect(Inspect::OldRing));

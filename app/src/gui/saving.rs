@@ -1,6 +1,8 @@
 //! The dialog that asks how large a picture shall be and what is behind it.
 
-use eframe::egui::{Align, Context, DragValue, Frame, Grid, Id, Key, Label, Layout, Margin, Modal, RichText, Ui};
+use eframe::egui::{
+    Align, Button, Context, DragValue, Frame, Grid, Id, Key, Label, Layout, Margin, Modal, RichText, Ui,
+};
 
 use crate::command::Command;
 use crate::preferences::{Background, PictureOptions};
@@ -50,7 +52,10 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
 
 fn fields(ui: &mut Ui, session: &Session, options: &mut PictureOptions) {
     Grid::new("picture").num_columns(2).min_col_width(90.0).spacing([16.0, 8.0]).show(ui, |ui| {
-        ui.with_layout(Layout::top_down(Align::Min), |ui| ui.label("Size"));
+        ui.with_layout(Layout::top_down(Align::Min), |ui| {
+            ui.add_space(2.0);
+            ui.label("Size");
+        });
         ui.vertical(|ui| {
             let seen = session.picture_size(&PictureOptions { as_seen: true, ..*options });
             let text = format!("as in the window, {} × {}", seen.width, seen.height);
@@ -70,7 +75,8 @@ fn fields(ui: &mut Ui, session: &Session, options: &mut PictureOptions) {
                 for (name, width, height) in SIZES {
                     let on = !options.as_seen && (options.width, options.height) == (width, height);
                     let tip = format!("{width} × {height}");
-                    if ui.selectable_label(on, name).on_hover_text(tip).clicked() {
+                    let size = Button::new(name).small().selected(on);
+                    if ui.add(size).on_hover_text(tip).clicked() {
                         *options = PictureOptions { as_seen: false, width, height, ..*options };
                     }
                 }

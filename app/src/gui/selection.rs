@@ -6,7 +6,7 @@ use eframe::egui::{
 use vv::mesh::{Mesh, Value, Vertex};
 
 use super::ring::{self, vertex_link};
-use super::widgets::{Icon, button, heading, icon_button, menu_entry};
+use super::widgets::{Icon, button, heading, heading_with, icon_button, menu_entry};
 use crate::annotate::{Label, Quantity};
 use crate::command::{Command, Inspect};
 use crate::inspect::measure::{FaceMeasure, angle, dihedral, short};
@@ -24,14 +24,19 @@ const STEPS: usize = 8;
 /// Shows it.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let Some(frame) = session.frame() else { return };
-    heading(ui, "Selection");
     let (selected, gone) = session.selection();
-    if selected.is_empty() && gone.is_empty() && session.inspection.walk.is_none() {
+    let nothing = selected.is_empty() && gone.is_empty() && session.inspection.walk.is_none();
+    let ask = |ui: &mut Ui| button(ui, session, commands, Command::Inspect(Inspect::AskForVertex));
+    if nothing {
+        heading_with(ui, "Selection", ask);
+    } else {
+        heading(ui, "Selection");
+    }
+    if nothing {
         ui.add(
             eframe::egui::Label::new(RichText::new("click a vertex, an edge or a face; Shift selects more").weak())
                 .wrap(),
         );
-        button(ui, session, commands, Command::Inspect(Inspect::AskForVertex));
         super::mask::show(ui, session, commands);
         ui.separator();
         return;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{
     Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Margin, Stroke, StrokeKind, Style,
-    TextStyle, Theme, Ui, Visuals, vec2,
+    TextStyle, Theme, Ui, Visuals, epaint::FontColorTransferFunction, epaint::Shadow, vec2,
 };
 use vv::diagnostic::Severity;
 use vv::syntax::TokenClass;
@@ -73,6 +73,14 @@ fn rounded(visuals: &mut Visuals) {
     }
     visuals.menu_corner_radius = CornerRadius::same(7);
     visuals.window_corner_radius = CornerRadius::same(9);
+    // Straight below, so that all sides of a window stand off alike.
+    let shadow = |down, blur, alpha| Shadow {
+        offset: [0, down],
+        blur,
+        spread: 0,
+        color: Color32::from_black_alpha(if visuals.dark_mode { 2 * alpha } else { alpha }),
+    };
+    (visuals.window_shadow, visuals.popup_shadow) = (shadow(10, 36, 46), shadow(5, 18, 36));
 }
 
 fn dark() -> Visuals {
@@ -103,6 +111,8 @@ fn dark() -> Visuals {
 fn light() -> Visuals {
     let mut v = Visuals::light();
     rounded(&mut v);
+    // Thin dark letters on a light ground look paler than they are.
+    v.text_options.color_transfer_function = FontColorTransferFunction::Gamma(0.65);
     v.panel_fill = Color32::from_rgb(0xf3, 0xf4, 0xf6);
     v.window_fill = Color32::from_rgb(0xfb, 0xfb, 0xfc);
     v.window_stroke = Stroke::new(1.0, Color32::from_rgb(0xcf, 0xd4, 0xdb));
@@ -135,9 +145,10 @@ pub fn focus_ring(ctx: &Context) {
     if visible.is_positive() {
         let visuals = &ctx.global_style().visuals;
         let painter = ctx.layer_painter(response.layer_id).with_clip_rect(clip);
+        // Over the line that a text field draws by itself, else there would be two.
         let ring = response.rect.expand(1.0);
-        painter.rect_stroke(ring, 5.0, Stroke::new(3.0, visuals.panel_fill), StrokeKind::Middle);
-        painter.rect_stroke(ring, 5.0, Stroke::new(1.5, visuals.hyperlink_color), StrokeKind::Middle);
+        painter.rect_stroke(ring, 6.0, Stroke::new(1.0, visuals.panel_fill), StrokeKind::Outside);
+        painter.rect_stroke(ring, 6.0, Stroke::new(2.0, visuals.hyperlink_color), StrokeKind::Inside);
     }
 }
 

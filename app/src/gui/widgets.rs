@@ -1,6 +1,8 @@
 //! Small parts that several panels use.
 
-use eframe::egui::text::LayoutJob;
+use std::sync::Arc;
+
+use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
     Align, Button, Color32, KeyboardShortcut, Layout, Painter, Pos2, Rect, Response, RichText, Role, Sense, Shape,
     Stroke, TextFormat, TextStyle, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
@@ -136,9 +138,11 @@ pub fn tooltip(ui: &mut Ui, command: &Command) {
     });
 }
 
+/// Points before an entry of a menu that has ticks.
+pub const TICK: f32 = 22.0;
+
 /// A command as an entry of a menu; a switch that is on has a tick before it, for which a menu with `ticks` has room.
 pub fn menu_item(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, command: Command, ticks: bool) {
-    const TICK: f32 = 22.0;
     let description = command.describe();
     let keys = description.shortcuts.first().map(|s| keys(ui, s)).unwrap_or_default();
     let on = command.is_on(session);
@@ -259,7 +263,31 @@ pub fn tab(ui: &mut Ui, on: bool, text: impl Into<RichText>, name: &str) -> Resp
 /// The heading of a part of a panel.
 pub fn heading(ui: &mut Ui, text: &str) {
     ui.add_space(4.0);
-    ui.label(RichText::new(text).strong());
+    bold(ui, text);
+}
+
+/// The same with what can be done with that part at the right.
+pub fn heading_with(ui: &mut Ui, text: &str, right: impl FnOnce(&mut Ui)) {
+    ui.add_space(2.0);
+    let height = ui.spacing().interact_size.y;
+    sides(ui, text, height, |ui| _ = bold(ui, text), right);
+}
+
+/// A text in heavier letters: drawn twice, a pixel apart, since the font has one weight.
+pub fn bold(ui: &mut Ui, text: &str) -> Response {
+    let apart = ui.pixels_per_point().recip();
+    let format = TextFormat {
+        font_id: TextStyle::Body.resolve(ui.style()),
+        extra_letter_spacing: apart,
+        color: ui.visuals().strong_text_color(),
+        ..TextFormat::default()
+    };
+    let job = LayoutJob { wrap: TextWrapping::no_max_width(), ..LayoutJob::single_section(text.to_owned(), format) };
+    let galley = ui.painter().layout_job(job);
+    let response = ui.label(Arc::clone(&galley));
+    let color = ui.visuals().strong_text_color();
+    ui.painter().galley(response.rect.min + vec2(apart, 0.0), galley, color);
+    response
 }
 
 /// `12 345 678`: groups of three.
@@ -268,7 +296,7 @@ pub fn grouped(number: usize) -> String {
     let mut result = String::new();
     for (i, digit) in digits.chars().enumerate() {
         if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            result.push('\u{2009}');
+            result.push('\u{202f}'); // a line is not broken in a number
         }
         result.push(digit);
     }
@@ -292,8 +320,8 @@ mod tests {
     #[test]
     fn numbers_are_grouped_and_times_have_units() {
         assert_eq!(grouped(7), "7");
-        assert_eq!(grouped(1234), "1\u{2009}234");
-        assert_eq!(grouped(123_456_789), "123\u{2009}456\u{2009}789");
+        assert_eq!(grouped(1234), "1\u{202f}234");
+        assert_eq!(grouped(123_456_789), "123\u{202f}456\u{202f}789");
         assert_eq!(seconds(0.000_012), "12 µs");
         assert_eq!(seconds(0.0123), "12.3 ms");
         assert_eq!(seconds(2.04), "2.0 s");

@@ -178,7 +178,8 @@ impl Page<'_> {
             if problem.is_some() {
                 painter.circle_filled(pos2(gutter.left() + 9.0, rect.center().y), 3.5, color);
             }
-            let at = pos2(gutter.right() - 8.0, rect.center().y);
+            // The smaller letters stand on the line of the larger ones.
+            let at = pos2(gutter.right() - 8.0, rect.center().y + 0.5);
             painter.text(at, Align2::RIGHT_CENTER, (row + 1).to_string(), font.clone(), color);
         }
     }
