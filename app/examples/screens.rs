@@ -10,16 +10,18 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use app::annotate::{Arrows, Label, Quantity};
+use app::camera::Side;
 use app::command::{Command, Inspect, PairAction, Panel, TextAction, ThemeChoice, ViewAction};
 use app::document::MeshSource;
 use app::gui::App;
+use app::inspect::selection::Item;
 use app::scene::Surface;
 use app::session::{Dialog, MaskState, Purpose};
 use app::store::Store;
 use eframe::egui;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use vv::mesh::Value;
+use vv::mesh::{Value, Vertex};
 
 type Window = Harness<'static, App>;
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -70,7 +72,22 @@ const STATES: &[State] = &[
         },
     },
     State { name: "keys", prepare: |w| do_(w, Command::CheatSheet) },
+    State {
+        name: "keys-found",
+        prepare: |w| {
+            do_(w, Command::CheatSheet);
+            w.get_by_label("Find a key").type_text("view");
+        },
+    },
     State { name: "reference", prepare: |w| do_(w, Command::Reference) },
+    State {
+        name: "reference-found",
+        prepare: |w| {
+            do_(w, Command::Reference);
+            w.run_steps(2);
+            w.get_by_label("Find in the reference").type_text("gap");
+        },
+    },
     State { name: "menu-file", prepare: |w| click(w, "File") },
     State { name: "menu-edit", prepare: |w| click(w, "Edit") },
     State { name: "menu-run", prepare: |w| click(w, "Run") },
@@ -110,6 +127,30 @@ const STATES: &[State] = &[
                 w.step();
                 std::thread::sleep(Duration::from_millis(10));
             }
+        },
+    },
+    State {
+        name: "edge",
+        prepare: |w| {
+            if let Some([v, u]) = side_at(w, 11) {
+                do_(w, Command::Inspect(Inspect::Select(Item::Edge([v, u]))));
+            }
+        },
+    },
+    State {
+        name: "face",
+        prepare: |w| {
+            if let Some(side) = side_at(w, 11) {
+                do_(w, Command::Inspect(Inspect::Select(Item::Face(side))));
+            }
+        },
+    },
+    State {
+        name: "ring-pointed-at",
+        prepare: |w| {
+            select_at(w, 1, &[12]);
+            let neighbour = side_at(w, 11).map(|[_, neighbour]| neighbour);
+            do_(w, Command::Inspect(Inspect::Point(neighbour)));
         },
     },
     State { name: "distance", prepare: |w| select_at(w, 1, &[12, 20]) },
@@ -189,6 +230,23 @@ const STATES: &[State] = &[
             do_(w, Command::Pair(PairAction::Compare));
             settle(w);
             do_(w, Command::OpenExample("butterfly.vv"));
+        },
+    },
+    State {
+        name: "orthographic",
+        prepare: |w| {
+            do_(w, Command::View(ViewAction::From(Side::Front)));
+            do_(w, Command::View(ViewAction::Orthographic));
+            do_(w, Command::Grid);
+            do_(w, Command::Axes);
+        },
+    },
+    State {
+        name: "property",
+        prepare: |w| {
+            exhibit(w, "distance.vv", 20);
+            settle(w);
+            click(w, "Labels and arrows");
         },
     },
     State { name: "curvature", prepare: |w| do_(w, Command::ColorBy(Quantity::Gauss)) },
@@ -372,6 +430,16 @@ fn select_at(window: &mut Window, generation: u64, vertices: &[u64]) {
     do_(window, Command::GoTo(generation));
     settle(window);
     do_(window, Command::Inspect(Inspect::SelectNumbers(vertices.to_vec())));
+}
+
+/// A vertex of the first generation, by its place, and the first of its neighbours.
+fn side_at(window: &mut Window, index: usize) -> Option<[Vertex; 2]> {
+    do_(window, Command::GoTo(1));
+    settle(window);
+    let frame = window.state().session().frame()?;
+    let vertex = frame.mesh.vertices().nth(index)?;
+    let neighbour = frame.mesh.ring(vertex).vertices().next()?;
+    Some([vertex, neighbour])
 }
 
 /// With the pointer at a place, until what is there has been explained.
