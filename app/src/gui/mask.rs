@@ -60,7 +60,9 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 fn plain(ui: &mut Ui, text: &str) {
-    ui.add(Label::new(RichText::new(text).weak()).wrap());
+    // A number does not stand alone in a line.
+    let shown = text.replace("generation ", "generation\u{a0}");
+    ui.add(Label::new(RichText::new(shown).weak()).wrap()).accessible_name(text);
 }
 
 struct List<'a> {
@@ -73,9 +75,9 @@ impl List<'_> {
     fn show(&self, ui: &mut Ui, mask: &Mask, commands: &mut Vec<Command>) {
         let before = self.generation.saturating_sub(1);
         if mask.is_affine {
-            plain(ui, &format!("{} as a sum of vertices of generation\u{a0}{before}", mask.of));
+            plain(ui, &format!("{} as a sum of vertices of generation {before}", mask.of));
         } else {
-            plain(ui, &format!("{} is no sum of vertices of generation\u{a0}{before}", mask.of));
+            plain(ui, &format!("{} is no sum of vertices of generation {before}", mask.of));
         }
         let font = TextStyle::Monospace.resolve(ui.style());
         let widest = mask
