@@ -62,7 +62,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 fn plain(ui: &mut Ui, text: &str) {
     // A number does not stand alone in a line.
     let shown = text.replace("generation ", "generation\u{a0}");
-    ui.add(Label::new(RichText::new(shown).weak()).wrap()).accessible_name(text);
+    ui.add(Label::new(RichText::new(shown).weak()).wrap());
 }
 
 struct List<'a> {

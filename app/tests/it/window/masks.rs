@@ -39,7 +39,7 @@ fn the_mask_of_a_vertex_is_listed_with_fractions() {
     assert!(window.query_by_label("1/2").is_none(), "nobody asked for it");
     press(&mut window, Key::M);
     measured(&mut window);
-    window.get_by_label("v3 as a sum of vertices of generation 0");
+    window.get_by_label("v3 as a sum of vertices of generation\u{a0}0");
     window.get_by_label("1/2");
     window.get_by_label("1/6");
     for old in ["mask v1", "mask v2", "mask v3", "mask v4"] {
@@ -48,7 +48,7 @@ fn the_mask_of_a_vertex_is_listed_with_fractions() {
     click(&mut window, "mask v4");
     assert_eq!(window.state().session().selected(), [Item::Vertex(v(4))]);
     measured(&mut window);
-    window.get_by_label("v4 as a sum of vertices of generation 0");
+    window.get_by_label("v4 as a sum of vertices of generation\u{a0}0");
     click(&mut window, "Mask");
     assert!(window.query_by_label("1/2").is_none());
 }
@@ -102,7 +102,7 @@ fn where_there_is_no_mask_it_is_said_why() {
     );
     window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(1)))));
     window.run_steps(2);
-    window.get_by_label("no step made generation 0: its vertices have no mask; step once");
+    window.get_by_label("no step made generation\u{a0}0: its vertices have no mask; step once");
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn what_keeps_weights_from_being_a_mask_is_said() {
     let (mut window, _folder) = stepped(round, 2);
     click(&mut window, "Mask");
     measured(&mut window);
-    window.get_by_label("v2 is no sum of vertices of generation 0");
+    window.get_by_label("v2 is no sum of vertices of generation\u{a0}0");
     window.get_by_label_contains("v2 is not affine in the old positions");
     write(&mut window, "void step(mesh& S) { forall v in S v$pos *= 2; }\n");
     measured(&mut window);
