@@ -191,7 +191,11 @@ fn counts(ui: &Ui, rect: Rect, frame: &Frame, beside: f32) -> Rect {
     }
     let galley = lay(lines.join("\n"));
     let size = galley.size();
-    ui.painter().galley(rect.left_bottom() + vec2(10.0, -8.0 - size.y), galley, color);
+    let at = rect.left_bottom() + vec2(10.0, -8.0 - size.y);
+    // Grid and mesh may lie behind it.
+    let plate = Rect::from_min_size(at, size).expand2(vec2(5.0, 2.0));
+    ui.painter().rect_filled(plate, 4.0, ui.visuals().panel_fill.gamma_multiply(0.75));
+    ui.painter().galley(at, galley, color);
     let apart = size.x + 30.0 + beside <= rect.width();
     if apart { rect } else { rect.with_max_y(rect.bottom() - size.y - 6.0) }
 }
