@@ -65,7 +65,7 @@ impl Quantity {
             Self::Mean => "mean curvature".to_owned(),
             Self::Birth => "generation of birth".to_owned(),
             Self::Change => "change in the last step".to_owned(),
-            Self::Since(generation) => format!("change since generation {generation}"),
+            Self::Since(generation) => format!("change since gen. {generation}"),
             Self::Coordinate(axis) => format!("coordinate {}", ["x", "y", "z"][usize::from(*axis).min(2)]),
             Self::Property(name) => name.clone(),
             Self::Color(name) => format!("{name} as colour"),

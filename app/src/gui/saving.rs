@@ -59,9 +59,9 @@ fn fields(ui: &mut Ui, session: &Session, options: &mut PictureOptions) {
         ui.vertical(|ui| {
             let seen = session.picture_size(&PictureOptions { as_seen: true, ..*options });
             let text = format!("as in the window, {} × {}", seen.width, seen.height);
-            ui.radio_value(&mut options.as_seen, true, text);
+            choice(ui, &mut options.as_seen, true, &text);
             ui.horizontal(|ui| {
-                ui.radio_value(&mut options.as_seen, false, "in pixels");
+                choice(ui, &mut options.as_seen, false, "in pixels");
                 let before = (options.width, options.height);
                 let range = 1..=PictureOptions::LONGEST;
                 let width = ui.add(DragValue::new(&mut options.width).range(range.clone()).speed(4.0));
@@ -85,10 +85,17 @@ fn fields(ui: &mut Ui, session: &Session, options: &mut PictureOptions) {
         ui.end_row();
         ui.label("Background");
         ui.horizontal_wrapped(|ui| {
-            ui.radio_value(&mut options.background, Background::AsSeen, "as seen");
-            ui.radio_value(&mut options.background, Background::White, "white");
-            ui.radio_value(&mut options.background, Background::Transparent, "transparent");
+            choice(ui, &mut options.background, Background::AsSeen, "as seen");
+            choice(ui, &mut options.background, Background::White, "white");
+            choice(ui, &mut options.background, Background::Transparent, "transparent");
         });
         ui.end_row();
     });
+}
+
+/// One of several values.
+fn choice<T: PartialEq>(ui: &mut Ui, chosen: &mut T, value: T, text: &str) {
+    if super::widgets::radio(ui, *chosen == value, text).clicked() {
+        *chosen = value;
+    }
 }

@@ -157,9 +157,9 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     if let Quantity::Since(generation) = session.document.annotations.color_by
         && generation <= last
     {
-        // A diamond above the one that is compared with.
-        let center = pos2(at(generation), y - 9.0);
-        let corners = [vec2(0.0, -3.5), vec2(3.5, 0.0), vec2(0.0, 3.5), vec2(-3.5, 0.0)].map(|d| center + d);
+        // It hangs above the one that is compared with.
+        let tip = pos2(at(generation), y - 5.0);
+        let corners = [vec2(-4.0, -5.0), vec2(4.0, -5.0), vec2(0.0, 0.0)].map(|d| tip + d);
         painter.add(egui::Shape::convex_polygon(corners.to_vec(), visuals.warn_fg_color, Stroke::NONE));
     }
     // Where the work is.
