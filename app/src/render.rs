@@ -35,9 +35,9 @@ use pipelines::{Pipelines, color_format};
 /// A picture's size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
-    /// Pixels.
+    /// In pixels.
     pub width: u32,
-    /// Pixels.
+    /// In pixels.
     pub height: u32,
     /// Pixels per point: how much wider lines are on a dense screen. 1 for pictures in files.
     pub scale: f32,

@@ -94,7 +94,7 @@ pub enum Surface {
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Cut {
-    /// Whether it does.
+    /// Whether anything is cut away.
     pub on: bool,
     /// What it is perpendicular to.
     pub across: Axis,

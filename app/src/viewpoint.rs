@@ -24,7 +24,7 @@ pub enum Viewpoint {
     At(Camera),
     /// From a side, near enough to see all.
     From {
-        /// Which.
+        /// From where it is seen.
         side: Side,
         /// Whether lines of sight are parallel.
         orthographic: bool,

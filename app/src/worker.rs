@@ -63,9 +63,9 @@ pub struct Recipe {
 /// A generation of a recipe.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// Of what.
+    /// Program, mesh and parameters.
     pub recipe: Arc<Recipe>,
-    /// Which.
+    /// How many steps after `start`, which makes generation 0.
     pub generation: u64,
 }
 
@@ -208,7 +208,7 @@ pub struct Reached {
 /// Why a request ended without a mesh.
 #[derive(Debug, Clone)]
 pub struct Failed {
-    /// How.
+    /// Whether the program failed, a budget ran out or somebody stopped it.
     pub kind: FailureKind,
     /// What to tell the user. `None` where the compiler or the reader of meshes has said it before.
     pub diagnostic: Option<Box<Diagnostic>>,

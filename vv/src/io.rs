@@ -155,7 +155,7 @@ pub struct ReadOptions {
 pub enum Place {
     /// In a text, from 1; without column the whole line. Columns count characters.
     Text {
-        /// Line.
+        /// From 1; CR, LF and CR LF end lines.
         line: u32,
         /// Column at which the word begins that is meant.
         column: Option<u32>,

@@ -10,7 +10,7 @@ use super::{Quantity, Subject};
 /// Numbers at the vertices or faces of a mesh, one for each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Field {
-    /// Of what.
+    /// What is measured.
     pub quantity: Quantity,
     /// Whether there is one for each face; else for each vertex.
     pub at_faces: bool,

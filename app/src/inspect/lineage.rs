@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn a_generation_that_is_computed_again_changes_nothing() {
         let lineage = lineage();
-        lineage.add(1, &Survivors::First(0));
+        lineage.add(1, &Survivors::First(3));
         assert_eq!([lineage.carry(v(3), 0, 1), lineage.carry(v(1), 0, 3)], [Some(v(3)), None]);
     }
 }

@@ -40,13 +40,13 @@ pub struct Faces {
 }
 
 impl Faces {
-    /// How many.
+    /// How many faces.
     #[must_use]
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// Whether there is none.
+    /// Whether no orbit is a face.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()

@@ -39,7 +39,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// Its type.
+    /// The type of a property or variable that can hold it.
     #[must_use]
     pub fn ty(self) -> Type {
         match self {
@@ -117,13 +117,13 @@ impl Values {
         }
     }
 
-    /// How many values.
+    /// How many values: one for each vertex, or for edges one for each slot of the rings.
     #[must_use]
     pub fn len(&self) -> usize {
         on_column!(self, c => c.len())
     }
 
-    /// Whether there is none.
+    /// Whether it has no value, as in a mesh without vertices.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
