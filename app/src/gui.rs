@@ -423,7 +423,9 @@ impl eframe::App for App {
             let _span = trace::span("window: dialog");
             dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
         }
-        if !editor::has_keys(ui.ctx()) {
+        // What had the keys in a dialog that has just gone is not there any more.
+        let settled = self.session.dialog.is_some() || self.asked == 0;
+        if settled && !editor::has_keys(ui.ctx()) {
             theme::focus_ring(ui.ctx());
         }
         clicks::take_pointed(ui.ctx(), &self.session, &mut commands);

@@ -40,6 +40,7 @@ use crate::inspect::lineage::Lineage;
 use crate::scene::Scene;
 
 use bench::Bench;
+pub use bench::fits;
 
 /// What decides every generation: two equal recipes give the same meshes.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,7 @@ use super::theme;
 use super::viewport::Viewport;
 use crate::command::{Command, PairAction};
 use crate::render::RenderError;
-use crate::session::Session;
+use crate::session::{Origin, Session};
 
 /// The panel's own state: what is seen at the left, or alone, and at the right.
 pub struct Pictures {
@@ -85,7 +85,11 @@ fn side(
 fn title(ui: &mut Ui, session: &Session, has_keys: bool, commands: &mut Vec<Command>) {
     let document = &session.document;
     let mark = if document.program.is_modified() { "● " } else { "" };
-    let names = [format!("{mark}{}", document.program.name), document.mesh.name()];
+    let made_by = match session.origin() {
+        Origin::Former => format!(" (shows {})", session.made_by()),
+        _ => String::new(),
+    };
+    let names = [format!("{mark}{}{made_by}", document.program.name), document.mesh.name()];
     let generation = session.shown_generation();
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -115,7 +119,7 @@ fn title(ui: &mut Ui, session: &Session, has_keys: bool, commands: &mut Vec<Comm
 fn label_name(session: &Session, has_keys: bool) -> String {
     let document = &session.document;
     let keys = if has_keys { ", has the keys" } else { "" };
-    format!("{} on {}, generation {}{keys}", document.program.name, document.mesh.name(), session.shown_generation())
+    format!("{} on {}, {}{keys}", document.program.name, document.mesh.name(), session.shown_as())
 }
 
 /// Names and generation in a line that is not wider than `room`: what does not fit is left out in the middle of the longer

@@ -8,6 +8,7 @@ use vv::source::FileId;
 use super::widgets::{bold, tooltip};
 use crate::command::Command;
 use crate::session::Session;
+use crate::worker::fits;
 
 /// Shows them, if there are any.
 pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
@@ -40,7 +41,8 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                 ui.label(RichText::new(format!("of {name}")).small().weak());
             }
         }
-        let given = session.document.params.get(&global.name).copied().filter(|v| v.ty() == global.ty);
+        // What the program leaves out is not shown either.
+        let given = session.document.params.get(&global.name).copied().filter(|&v| fits(global, param, v));
         let row = Row { global, param, value: given.unwrap_or(param.default), note: note(program, global) };
         let changed = ui.push_id(&global.name, |ui| row.show(ui, given.is_some(), commands)).inner;
         if let Some(value) = changed {

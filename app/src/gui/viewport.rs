@@ -139,10 +139,9 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame, legend: Op
     let generation = frame.request.generation;
     match (session.stale(), session.halted()) {
         (Some(Stale::Failed(message)), halted) => {
-            let name = crate::document::file_name(&frame.request.recipe.path);
             let title = match (session.origin(), halted) {
                 (Origin::Mesh, _) => "nothing computed: the mesh as read".to_owned(),
-                (Origin::Former, _) => format!("stale: generation {generation} of {name}"),
+                (Origin::Former, _) => format!("stale: {}", session.shown_as()),
                 (Origin::This, Some(halted)) => {
                     format!("stale: last good result; generation {} failed", halted.generation)
                 }

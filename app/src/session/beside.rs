@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use vv::diagnostic::Severity;
 
-use super::{Dialog, Session};
+use super::{Dialog, Origin, Session};
 use crate::command::{Command, PairAction};
 
 /// The document beside the one that has the keys.
@@ -102,7 +102,11 @@ impl Session {
         // What is computed already is seen at once.
         other.frame.clone_from(&self.frame);
         other.program.clone_from(&self.program);
-        (other.frame_of, other.program_of) = (self.frame_of.map(|_| 0), 0);
+        other.frame_of = match self.origin() {
+            Origin::This => Some(other.programs()),
+            Origin::Former => Some(u64::MAX), // of none that it will have
+            Origin::Mesh => None,
+        };
         other.flight.clone_from(&self.flight);
         self.beside = Some(Beside { other: Box::new(other), right: true, views_linked: true, steps_linked: true });
         self.switch();

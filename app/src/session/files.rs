@@ -12,7 +12,7 @@ use super::{Dialog, PathTrouble, Purpose, Session};
 use crate::command::{Answer, Command};
 use crate::document::{MeshSource, NOWHERE, ProgramText};
 use crate::project::{self, Project};
-use crate::{files, library, typed_path};
+use crate::{files, library, style_file, typed_path};
 
 /// What a style is called, when nobody says.
 const STYLE_NAME: &str = "style.json";
@@ -52,7 +52,12 @@ impl Session {
                 let path = path.clone();
                 self.unless_unsaved(command, |s| s.open_project(&path));
             }
-            Command::Open(path) => self.use_mesh(MeshSource::File(path)),
+            Command::Open(path) if is_mesh(&path) => self.use_mesh(MeshSource::File(path)),
+            Command::Open(path) => {
+                let style = path.extension().is_some_and(|e| e.eq_ignore_ascii_case(style_file::EXTENSION));
+                let done = if style { self.open_style(&path) } else { Err(unknown()) };
+                self.tell(&path, done);
+            }
             Command::OpenExample(name) => self.unless_unsaved(command, |s| {
                 if let Some(example) = library::program(name) {
                     s.set_program(ProgramText::new(example.name, example.text));
@@ -366,11 +371,13 @@ impl Session {
     fn name_for(&self, purpose: Purpose) -> String {
         let program = &self.document.program.name;
         let program = program.strip_suffix(".vv").unwrap_or(program);
+        let made_by = self.made_by();
+        let shown = format!("{}-{}", made_by.strip_suffix(".vv").unwrap_or(&made_by), self.shown_generation());
         match purpose {
             Purpose::SaveProgram => self.document.program.name.clone(),
             // The mesh and the picture of one generation stay when those of the next come.
-            Purpose::ExportMesh => format!("{program}-{}.obj", self.shown_generation()),
-            Purpose::SavePicture => format!("{program}-{}.png", self.shown_generation()),
+            Purpose::ExportMesh => format!("{shown}.obj"),
+            Purpose::SavePicture => format!("{shown}.png"),
             Purpose::SaveMask => format!("{program}-mask.svg"),
             Purpose::SaveProject => format!("{program}.{}", project::EXTENSION),
             Purpose::SaveStyle => STYLE_NAME.to_owned(),
@@ -530,6 +537,16 @@ fn offers_file_dialog() -> bool {
 /// Whether a path is that of a program.
 pub(super) fn is_program(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("vv"))
+}
+
+/// Why a file of another kind is not opened, whatever it was dropped for.
+fn unknown() -> String {
+    let meshes = files::mesh_extensions("or");
+    format!(
+        "neither a program (.vv), a project (.{}), a style (.{}) nor a mesh ({meshes})",
+        project::EXTENSION,
+        style_file::EXTENSION
+    )
 }
 
 /// Whether a path is that of a mesh.

@@ -39,6 +39,27 @@ impl Session {
         }
     }
 
+    /// What the program is called that made [`Session::frame`].
+    #[must_use]
+    pub fn made_by(&self) -> String {
+        match (self.origin(), &self.frame) {
+            (Origin::Former, Some(frame)) => crate::document::file_name(&frame.request.recipe.path),
+            _ => self.document.program.name.clone(),
+        }
+    }
+
+    /// What is shown, in a few words.
+    #[must_use]
+    pub fn shown_as(&self) -> String {
+        let generation = self.shown_generation();
+        match self.origin() {
+            Origin::This => format!("generation {generation}"),
+            Origin::Former => format!("generation {generation} of {}", self.made_by()),
+            Origin::Mesh if self.stale.is_some() => "nothing computed".to_owned(),
+            Origin::Mesh => format!("generation {generation}"),
+        }
+    }
+
     /// The generations that were reached, with what is known of them.
     #[must_use]
     pub fn reached(&self) -> BTreeMap<u64, Reached> {

@@ -11,7 +11,7 @@ use vv::Compilation;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
 use vv::io::{Format, ReadError, ReadOptions};
-use vv::ir::Program;
+use vv::ir::{Global, Param, Program};
 use vv::mesh::{Mesh, Value};
 use vv::stop::{Stop, Stopped};
 
@@ -345,21 +345,24 @@ pub(super) fn shipped_mesh(name: &str, options: &ReadOptions) -> Result<(Mesh, V
     })
 }
 
+/// Whether a parameter can have this value.
+#[must_use]
+pub fn fits(global: &Global, param: &Param, value: Value) -> bool {
+    value.ty() == global.ty
+        && match (param.range, value) {
+            (Some((Value::Int(low), Value::Int(high))), Value::Int(x)) => low <= x && x <= high,
+            (Some((Value::Double(low), Value::Double(high))), Value::Double(x)) => low <= x && x <= high,
+            _ => true,
+        }
+}
+
 /// The values that fit the program's parameters.
 pub(super) fn params(program: &Program, values: &BTreeMap<String, Value>) -> Vec<(vv::ir::GlobalId, Value)> {
-    let fits = |ty, range: Option<(Value, Value)>, value: Value| {
-        value.ty() == ty
-            && match (range, value) {
-                (Some((Value::Int(low), Value::Int(high))), Value::Int(x)) => low <= x && x <= high,
-                (Some((Value::Double(low), Value::Double(high))), Value::Double(x)) => low <= x && x <= high,
-                _ => true,
-            }
-    };
     program
         .params()
         .filter_map(|(id, global, param)| {
             let &value = values.get(&global.name)?;
-            fits(global.ty, param.range, value).then_some((id, value))
+            fits(global, param, value).then_some((id, value))
         })
         .collect()
 }

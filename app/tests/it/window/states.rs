@@ -236,3 +236,51 @@ fn a_style_that_is_loaded_is_one_step_to_undo_and_figures_go_by_it() {
     assert!(said.contains("wrong.json: line 2: a page is a width"), "{said}");
     assert_eq!(window.state().session().document, styled);
 }
+
+#[test]
+fn a_value_that_the_program_does_not_take_is_not_shown_as_if_it_did() {
+    let mut window = octahedron();
+    let program =
+        |range: &str| format!("param double w = 0.25 in {range};\nvoid f(mesh& S) {{ forall v in S v$pos *= w; }}\n");
+    write(&mut window, &program("[0, 1]"));
+    window.state_mut().apply(Command::SetParam("w".to_owned(), vv::mesh::Value::Double(0.75)));
+    click(&mut window, "Step");
+    assert_eq!(size(&window), 0.75);
+    write(&mut window, &program("[0, 0.5]"));
+    assert_eq!(size(&window), 0.25);
+    let slider = window.get_by_role_and_label(Role::Slider, "w");
+    assert_eq!(slider.accesskit_node().numeric_value(), Some(0.25));
+}
+
+#[test]
+fn a_file_of_an_unknown_kind_leaves_all_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("notes.xyz");
+    std::fs::write(&path, "notes").unwrap();
+    let mut window = octahedron();
+    let before = window.state().session().document.clone();
+    window.state_mut().apply(Command::Open(path));
+    settle(&mut window);
+    let session = window.state().session();
+    assert_eq!((&session.document, session.stale()), (&before, None));
+    let (_, said) = session.notice().unwrap();
+    assert!(said.contains("notes.xyz: neither a program (.vv)"), "{said}");
+}
+
+#[test]
+fn what_a_former_program_made_is_saved_and_titled_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    std::fs::write(path("broken.vv"), "void f(mesh& S) {").unwrap();
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    window.state_mut().apply(Command::SaveTo(path("good.vv")));
+    window.state_mut().apply(Command::Step);
+    settle(&mut window);
+    window.state_mut().apply(Command::Open(path("broken.vv")));
+    settle(&mut window);
+    assert_eq!((window.state().session().made_by().as_str(), size(&window)), ("good.vv", 2.0));
+    window.state_mut().apply(Command::Pair(app::command::PairAction::Compare));
+    window.run_steps(4);
+    window.get_by_label("broken.vv on octahedron.obj, generation 1 of good.vv, has the keys");
+}
