@@ -119,7 +119,7 @@ impl Viewport {
         if style.axes {
             gizmo::show(ui, rect, &camera);
         }
-        overlay(ui, rect, session, &frame, legend);
+        overlay(ui, rect, session, legend);
     }
 }
 
@@ -134,9 +134,8 @@ fn theme_of(ui: &Ui) -> Theme {
 }
 
 /// What stands over the picture.
-fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame, legend: Option<Rect>) {
+fn overlay(ui: &mut Ui, rect: Rect, session: &Session, legend: Option<Rect>) {
     let visuals = ui.visuals().clone();
-    let generation = frame.request.generation;
     match (session.stale(), session.halted()) {
         (Some(Stale::Failed(message)), halted) => {
             let title = match (session.origin(), halted) {
@@ -153,13 +152,8 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, frame: &Frame, legend: Op
             badge(ui, rect, visuals.warn_fg_color, "stale: stopped", "what is wanted was not computed");
         }
         (None, Some(halted)) => {
-            badge(
-                ui,
-                rect,
-                visuals.error_fg_color,
-                &format!("generation {} failed", halted.generation),
-                &halted.message,
-            );
+            let title = format!("generation {} failed", halted.generation);
+            badge(ui, rect, visuals.error_fg_color, &title, &halted.message);
         }
         (None, None) => {}
     }
