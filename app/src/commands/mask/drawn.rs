@@ -54,12 +54,23 @@ pub struct Target {
 
 /// A mask to draw.
 pub struct Drawn {
-    /// Where it is: whether at the boundary, of what kind, and around a vertex of how many sectors.
-    place: Option<(bool, Kind, usize)>,
+    /// Where it is, of what kind, and around a vertex of how many sectors.
+    place: Option<(Side, Kind, usize)>,
     /// All weights in order; what has the same in the same kind of place is drawn once.
     weights: Vec<f64>,
     caption: String,
     sketch: Sketch,
+}
+
+/// Where a new vertex lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Side {
+    /// Far from the boundary.
+    Inside,
+    /// On it.
+    Boundary,
+    /// On an edge that ends at the boundary, or in a face that has a corner there.
+    Near,
 }
 
 /// What a new vertex is for: an old vertex, an edge, or a face with one corner of it.
@@ -140,7 +151,13 @@ impl DrawingArguments {
             (false, true) => Kind::Edge,
             (false, false) => Kind::Face,
         };
-        let place = Some((star.boundary, kind, star.sectors));
+        let side = match (star.boundary, kind) {
+            (false, _) => Side::Inside,
+            (true, Kind::Edge) if new.y.abs() > 1e-9 => Side::Near,
+            (true, Kind::Face) => Side::Near,
+            (true, _) => Side::Boundary,
+        };
+        let place = Some((side, kind, star.sectors));
         Drawn { place, weights: sorted(&class.mask), caption: String::new(), sketch }
     }
 
@@ -237,49 +254,51 @@ fn sorted(mask: &[(Vertex, f64)]) -> Vec<f64> {
     weights
 }
 
-/// Masks that are the same around vertices of several valences become one, around a regular vertex if it is among them.
+/// Masks that are the same around vertices of several valences become one, around a regular vertex if it is among them;
+/// and near the boundary only those are shown that are not as inside.
 fn each_once(masks: Vec<Drawn>, around: Around) -> Vec<Tile> {
-    let regular = |boundary: bool| match (around, boundary) {
-        (Around::Triangles, false) => 6,
-        (Around::Triangles, true) => 3,
-        (Around::Quads, false) => 4,
-        (Around::Quads, true) => 2,
+    let regular = |side: Side| match (around, side) {
+        (Around::Triangles, Side::Inside) => 6,
+        (Around::Triangles, _) => 3,
+        (Around::Quads, Side::Inside) => 4,
+        (Around::Quads, _) => 2,
     };
-    let all: Vec<(bool, usize)> = {
-        let mut all: Vec<_> = masks.iter().filter_map(|mask| mask.place).map(|(b, _, sectors)| (b, sectors)).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
-    };
+    let mut all: Vec<(Side, Kind, usize)> = masks.iter().filter_map(|mask| mask.place).collect();
+    all.sort_unstable();
+    all.dedup();
     let mut groups: Vec<(Drawn, Vec<usize>)> = Vec::new();
     for mask in masks {
-        let alike = |(other, _): &&mut (Drawn, Vec<usize>)| {
-            let kind = |drawn: &Drawn| drawn.place.map(|(boundary, kind, _)| (boundary, kind));
-            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-10;
-            mask.place.is_some()
-                && kind(other) == kind(&mask)
+        let Some((side, kind, sectors)) = mask.place else {
+            groups.push((mask, Vec::new()));
+            continue;
+        };
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-10;
+        let alike = |other: &Drawn, sides: &[Side]| {
+            other.place.is_some_and(|(s, k, _)| sides.contains(&s) && k == kind)
                 && other.weights.len() == mask.weights.len()
                 && other.weights.iter().zip(&mask.weights).all(near)
         };
-        let sectors = mask.place.map(|(_, _, sectors)| sectors);
-        match groups.iter_mut().find(alike) {
+        if side == Side::Near && groups.iter().any(|(other, _)| alike(other, &[Side::Inside])) {
+            continue;
+        }
+        match groups.iter_mut().find(|(other, _)| alike(other, &[side])) {
             Some((drawn, members)) => {
-                members.extend(sectors);
-                if mask.place.is_some_and(|(boundary, _, sectors)| sectors == regular(boundary)) {
+                members.push(sectors);
+                if sectors == regular(side) {
                     *drawn = mask;
                 }
             }
-            None => groups.push((mask, sectors.into_iter().collect())),
+            None => groups.push((mask, vec![sectors])),
         }
     }
-    groups.sort_by_key(|(drawn, _)| drawn.place.map(|(boundary, kind, _)| (boundary, kind)));
+    groups.sort_by_key(|(drawn, _)| drawn.place.map(|(side, kind, _)| (side, kind)));
     let tile = |(drawn, mut members): (Drawn, Vec<usize>)| {
         members.dedup();
         let caption = match drawn.place {
             None => drawn.caption,
-            Some((boundary, kind, _)) => {
-                let of_kind: Vec<usize> = all.iter().filter(|(b, _)| *b == boundary).map(|(_, n)| *n).collect();
-                caption(boundary, kind, &members, &of_kind)
+            Some((side, kind, _)) => {
+                let same = all.iter().filter(|(s, k, _)| (*s, *k) == (side, kind));
+                caption(side, kind, &members, &same.map(|(.., n)| *n).collect::<Vec<_>>())
             }
         };
         Tile { sketch: Some(drawn.sketch), caption }
@@ -288,13 +307,18 @@ fn each_once(masks: Vec<Drawn>, around: Around) -> Vec<Tile> {
 }
 
 /// `vertex, valence 5`, `edge`, `boundary vertex, 2 sectors`: nothing is said of valences if it is the same for all.
-fn caption(boundary: bool, kind: Kind, members: &[usize], all: &[usize]) -> String {
-    let kind = match kind {
+fn caption(side: Side, kind: Kind, members: &[usize], all: &[usize]) -> String {
+    let name = match kind {
         Kind::Vertex => "vertex",
         Kind::Edge => "edge",
         Kind::Face => "face",
     };
-    let kind = if boundary { format!("boundary {kind}") } else { kind.to_owned() };
+    let kind = match (side, kind) {
+        (Side::Inside, _) => name.to_owned(),
+        (Side::Boundary, _) => format!("boundary {name}"),
+        (Side::Near, Kind::Edge) => "edge to the boundary".to_owned(),
+        (Side::Near, _) => format!("{name} at the boundary"),
+    };
     if members == all && all.len() > 1 {
         return kind;
     }
@@ -308,10 +332,10 @@ fn caption(boundary: bool, kind: Kind, members: &[usize], all: &[usize]) -> Stri
     let run =
         |&(first, last): &(usize, usize)| if first == last { first.to_string() } else { format!("{first}–{last}") };
     let numbers = runs.iter().map(run).collect::<Vec<_>>().join(", ");
-    match (boundary, members) {
-        (false, _) => format!("{kind}, valence {numbers}"),
-        (true, [1]) => format!("{kind}, 1 sector"),
-        (true, _) => format!("{kind}, {numbers} sectors"),
+    match (side, members) {
+        (Side::Inside, _) => format!("{kind}, valence {numbers}"),
+        (_, [1]) => format!("{kind}, 1 sector"),
+        _ => format!("{kind}, {numbers} sectors"),
     }
 }
 
@@ -322,11 +346,13 @@ mod tests {
     #[test]
     fn a_caption_names_the_valences_unless_it_is_for_all() {
         let all = [3, 4, 5, 6, 7];
-        assert_eq!(caption(false, Kind::Vertex, &[5], &all), "vertex, valence 5");
-        assert_eq!(caption(false, Kind::Edge, &all, &all), "edge");
-        assert_eq!(caption(false, Kind::Face, &[3, 5, 6, 7], &all), "face, valence 3, 5–7");
-        assert_eq!(caption(true, Kind::Vertex, &[1], &[1, 2]), "boundary vertex, 1 sector");
-        assert_eq!(caption(true, Kind::Vertex, &[1, 2], &[1, 2, 3]), "boundary vertex, 1–2 sectors");
-        assert_eq!(caption(false, Kind::Edge, &[6], &[6]), "edge, valence 6");
+        assert_eq!(caption(Side::Inside, Kind::Vertex, &[5], &all), "vertex, valence 5");
+        assert_eq!(caption(Side::Inside, Kind::Edge, &all, &all), "edge");
+        assert_eq!(caption(Side::Inside, Kind::Face, &[3, 5, 6, 7], &all), "face, valence 3, 5–7");
+        assert_eq!(caption(Side::Boundary, Kind::Vertex, &[1], &[1, 2]), "boundary vertex, 1 sector");
+        assert_eq!(caption(Side::Boundary, Kind::Vertex, &[1, 2], &[1, 2, 3]), "boundary vertex, 1–2 sectors");
+        assert_eq!(caption(Side::Inside, Kind::Edge, &[6], &[6]), "edge, valence 6");
+        assert_eq!(caption(Side::Near, Kind::Edge, &[2, 3], &[2, 3]), "edge to the boundary");
+        assert_eq!(caption(Side::Near, Kind::Face, &[1], &[1, 2]), "face at the boundary, 1 sector");
     }
 }

@@ -76,7 +76,14 @@ pub fn cases(program: &Program, inputs: usize, definitions: &[(String, String)])
 fn each(name: &str, text: &str, ty: Option<Type>) -> Result<Vec<String>, Box<Diagnostic>> {
     let scalar = matches!(ty, Some(Type::Bool | Type::Int | Type::Double));
     if scalar && text.contains(',') {
-        return Ok(text.split(',').map(|value| value.trim().to_owned()).collect());
+        let values: Vec<String> = text.split(',').map(|value| value.trim().to_owned()).collect();
+        if values.iter().any(String::is_empty) {
+            return Err(Box::new(error(format!("`-D {name}={text}`: a value is missing beside a comma"))));
+        }
+        if let Some(i) = (1..values.len()).find(|&i| values[..i].contains(&values[i])) {
+            return Err(Box::new(error(format!("`-D {name}={text}`: the value {} stands there twice", values[i]))));
+        }
+        return Ok(values);
     }
     if !scalar || !text.contains(':') {
         return Ok(vec![text.to_owned()]);

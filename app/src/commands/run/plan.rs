@@ -309,7 +309,11 @@ impl Plan {
         for (name, target) in &self.outputs {
             if name.has(FRAME) && (self.frames.is_none() || !target.is_picture() || target.is_film()) {
                 let message = format!("`-o {}`: only pictures of a turntable have frames", name.path().display());
-                return Err(Box::new(error(message).hint("add `--turntable 36` and write a `.png`")));
+                return Err(Box::new(error(message).hint(match (self.frames, target.is_film()) {
+                    (None, _) => "add `--turntable 36`, and write a `.png`",
+                    (Some(_), true) => "a `.gif` holds all of them: leave `{frame}` out",
+                    (Some(_), false) => "write a `.png`",
+                })));
             }
             let known = |what: &str| [GENERATION, INPUT, FRAME].contains(&what) || parameters.contains(&what);
             if let Some(what) = name.places().find(|what| !known(what)) {
@@ -356,10 +360,20 @@ impl Plan {
 
     fn written_twice(&self, path: &Path) -> Diagnostic {
         let diagnostic = error(format!("`-o {}` would be written more than once", path.display()));
+        let named = |(name, _): &&(Name, Target)| {
+            let of_case = |case| self.shown().any(|g| (0..self.frames().max(1)).any(|f| self.path(name, case, g, f) == path));
+            self.cases.all.iter().any(of_case)
+        };
+        let name = self.outputs.iter().find(named).map(|(name, _)| name);
         let input = (self.inputs.len() > 1).then_some(INPUT);
+        let generation = self.generations.as_ref().filter(|all| all.len() > 1).map(|_| GENERATION);
+        let swept = self.cases.sweeps.iter().map(|(name, _)| name.as_str());
+        let missing = |place: &&str| name.is_none_or(|name| !name.has(place));
         let places: Vec<String> = input
             .into_iter()
-            .chain(self.cases.sweeps.iter().map(|(name, _)| name.as_str()))
+            .chain(swept)
+            .chain(generation)
+            .filter(missing)
             .map(|name| format!("{{{name}}}"))
             .collect();
         match places.as_slice() {

@@ -70,6 +70,16 @@ fn masks_are_drawn_with_their_weights_and_each_kind_once() {
     assert_eq!(written(&folder.read("a.svg")), ["vertex", "boundary vertex", "1", "1"]);
 }
 
+/// An edge that ends at the boundary is none of it.
+#[test]
+fn near_the_boundary_only_what_is_not_as_inside_is_drawn() {
+    let folder = Folder::with(&[("loop.vv", include_str!("../../../../assets/programs/loop.vv"))]);
+    folder.check("mask loop.vv -o a.svg --page 160mm", 0, "");
+    let labels = written(&folder.read("a.svg"));
+    let captions: Vec<&str> = labels.iter().map(String::as_str).filter(|label| label.contains("edge")).collect();
+    assert_eq!(captions, ["edge", "boundary edge"]);
+}
+
 #[test]
 fn masks_of_a_mesh_are_drawn_on_it() {
     let folder = Folder::with(&[("thirds.vv", THIRDS)]);

@@ -69,6 +69,12 @@ fn sweeps_that_cannot_be_meant_are_refused_before_anything_is_run() {
     refused("-D times=0:1:3 -o {times}.obj", "`-D times=0.5`: the parameter `times` is a whole number");
     refused("-D far=0:1:1000 -D times=1,2 -o {far}{times}.obj", "these are more than 1000 runs");
     refused("-D far=0:1:3 -o a.obj", "`-o a.obj` would be written more than once\nput `{far}` into its name");
+    refused("-D far=1,,2 -o {far}.obj", "`-D far=1,,2`: a value is missing beside a comma");
+    refused("-D far=1,2,1 -o {far}.obj", "`-D far=1,2,1`: the value 1 stands there twice");
+    refused("--generations 0,1 --turntable 4 -o a.gif", "put `{n}` into its name");
+    refused("--generations 0,1 -D far=1,2 --turntable 4 -o {far}.gif", "put `{n}` into its name");
+    refused("--turntable 4 -o {frame}.svg", "only pictures of a turntable have frames\nhelp: write a `.png`");
+    refused("--turntable 4 -o {frame}.gif", "a `.gif` holds all of them: leave `{frame}` out");
     refused("-i octahedron.obj -o {name}.obj", "would be written more than once");
     refused("-o {fra}.obj", "nothing is called `fra`\nthere are `n` and `name`");
     refused("-D far=1 -o {fa}.obj", "did you mean `{far}`?");
