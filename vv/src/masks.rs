@@ -31,6 +31,8 @@ pub const TOLERANCE: f64 = 1e-11;
 pub struct Masks {
     /// The mesh after the step, closed.
     pub result: Mesh,
+    /// So many vertices of the result are old ones, the first: those that the step has left in the set.
+    pub survivors: usize,
     /// For each vertex of the result, by its index, the old vertices that it is made of and their weights, in the order
     /// of their numbers.
     pub weights: Vec<Vec<(Vertex, f64)>>,
@@ -85,7 +87,7 @@ pub enum Fault {
 /// As [`Machine::run`].
 pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Settings) -> Result<Masks, Failure> {
     let step = |mesh: &Mesh| step(machine, rule, mesh, 1, settings);
-    let result = step(mesh)?;
+    let (result, survivors) = step(mesh)?;
     let mut weights = vec![Vec::new(); result.vertex_count()];
     let mut faults = Vec::new();
     let old: Vec<Vertex> = mesh.vertices().collect();
@@ -94,9 +96,9 @@ pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Sett
         for (&v, axis) in three.iter().zip(DVec3::AXES) {
             moved.set_position(v, mesh.position(v) + axis);
         }
-        let moved = step(&moved)?;
+        let (moved, _) = step(&moved)?;
         if !same_rings(&result, &moved) {
-            return Ok(Masks { result, weights, faults: vec![Fault::Connectivity] });
+            return Ok(Masks { result, survivors, weights, faults: vec![Fault::Connectivity] });
         }
         for (mask, (to, from)) in weights.iter_mut().zip(moved.positions().iter().zip(result.positions())) {
             let by = (*to - *from).to_array();
@@ -108,7 +110,7 @@ pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Sett
     for &v in &old {
         elsewhere.set_position(v, scattered(v));
     }
-    let there = step(&elsewhere)?;
+    let (there, _) = step(&elsewhere)?;
     if !same_rings(&result, &there) {
         faults.push(Fault::Connectivity);
     }
@@ -126,18 +128,19 @@ pub fn measure(machine: &Machine, rule: FunctionId, mesh: &Mesh, settings: &Sett
             }
         }
     }
-    Ok(Masks { result, weights, faults })
+    Ok(Masks { result, survivors, weights, faults })
 }
 
-/// A step, closed.
+/// A step, closed; and how many of the old vertices are left, which are its first.
 fn step(
     machine: &Machine,
     rule: FunctionId,
     mesh: &Mesh,
     generation: u64,
     settings: &Settings,
-) -> Result<Mesh, Failure> {
+) -> Result<(Mesh, usize), Failure> {
     let mut result = machine.run(rule, mesh, generation, settings, &mut Vec::new())?;
+    let survivors = mesh.vertices().filter(|&v| result.set.contains(v)).count();
     close(&mut result, &settings.stop).map_err(|stopped| Failure {
         kind: FailureKind::Stopped(stopped),
         diagnostic: Box::new(crate::diagnostic::Diagnostic::new(
@@ -146,7 +149,7 @@ fn step(
             stopped.to_string(),
         )),
     })?;
-    Ok(result)
+    Ok((result, survivors))
 }
 
 /// A place of its own for each vertex; no two of them lie along a line with the origin.

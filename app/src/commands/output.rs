@@ -132,7 +132,11 @@ impl OutputArguments {
         let targets = self.formats(reporter)?;
         if let Some(film) = targets.iter().find(|target| target.is_film()) {
             let message = format!("`-o {}`: nothing moves here", film.path.display());
-            return fail(reporter, Exit::Usage, error(message).hint("`vv render` goes around a mesh with `--turntable`"));
+            return fail(
+                reporter,
+                Exit::Usage,
+                error(message).hint("`vv render` goes around a mesh with `--turntable`"),
+            );
         }
         check_places(&targets, reporter)?;
         Ok(targets)

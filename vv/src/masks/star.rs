@@ -130,7 +130,7 @@ impl Star {
     /// As [`Machine::run`].
     pub fn started(&self, machine: &Machine, settings: &Settings) -> Result<Option<Self>, Failure> {
         let Some(start) = machine.program().start else { return Ok(Some(self.clone())) };
-        let mesh = step(machine, start, &self.mesh, 0, settings)?;
+        let (mesh, _) = step(machine, start, &self.mesh, 0, settings)?;
         let is_same = |v: Vertex| mesh.set.contains(v) && mesh.ring(v).slots() == self.mesh.ring(v).slots();
         let still_there = mesh.vertex_count() >= self.mesh.vertex_count() && self.mesh.vertices().all(is_same);
         Ok(still_there.then(|| Self { mesh, ..self.clone() }))
@@ -216,6 +216,8 @@ fn cells(sectors: usize) -> impl Iterator<Item = (usize, usize, usize)> {
 pub struct Class {
     /// One of them.
     pub vertex: Vertex,
+    /// Whether it is an old vertex, perhaps elsewhere.
+    pub is_old: bool,
     /// How many there are.
     pub count: usize,
     /// Its weights, in the order of the old vertices.
@@ -264,7 +266,8 @@ pub fn classes(star: &Star, masks: &Masks) -> Vec<Class> {
             continue;
         }
         let key = least(mask, &turned);
-        let class = Class { vertex, count: 0, mask: mask.clone(), symmetric: false, key: key.clone() };
+        let is_old = vertex.index() < masks.survivors;
+        let class = Class { vertex, is_old, count: 0, mask: mask.clone(), symmetric: false, key: key.clone() };
         found.entry(key).or_insert(class).count += 1;
     }
     let keys: Vec<Key> = found.keys().cloned().collect();

@@ -43,7 +43,7 @@ pub fn measure_vertex(
     vertex: Vertex,
     settings: &Settings,
 ) -> Result<VertexMask, Failure> {
-    let result = step(machine, rule, mesh, generation, settings)?;
+    let (result, _) = step(machine, rule, mesh, generation, settings)?;
     let mut mask = VertexMask { vertex, weights: Vec::new(), faults: Vec::new() };
     if vertex.index() >= result.vertex_count() {
         return Ok(mask);
@@ -56,7 +56,7 @@ pub fn measure_vertex(
     let moved = |by: &mut dyn Iterator<Item = (Vertex, DVec3)>| -> Result<Option<DVec3>, Failure> {
         let mut moved = mesh.clone();
         by.for_each(|(v, to)| moved.set_position(v, to));
-        let moved = step(machine, rule, &moved, generation, settings)?;
+        let (moved, _) = step(machine, rule, &moved, generation, settings)?;
         Ok(same_rings(&result, &moved).then(|| moved.position(vertex)))
     };
     let away = |v: Vertex| (v, mesh.position(v) + unit * scattered(v));

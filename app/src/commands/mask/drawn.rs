@@ -146,7 +146,7 @@ impl DrawingArguments {
             let turns = new.to_angle() / sector;
             (turns - turns.round()).abs() < 1e-6
         };
-        let kind = match (at_p || class.vertex.index() < star.mesh.vertex_count(), on_ray) {
+        let kind = match (at_p || class.is_old, on_ray) {
             (true, _) => Kind::Vertex,
             (false, true) => Kind::Edge,
             (false, false) => Kind::Face,

@@ -361,7 +361,8 @@ impl Plan {
     fn written_twice(&self, path: &Path) -> Diagnostic {
         let diagnostic = error(format!("`-o {}` would be written more than once", path.display()));
         let named = |(name, _): &&(Name, Target)| {
-            let of_case = |case| self.shown().any(|g| (0..self.frames().max(1)).any(|f| self.path(name, case, g, f) == path));
+            let of_case =
+                |case| self.shown().any(|g| (0..self.frames().max(1)).any(|f| self.path(name, case, g, f) == path));
             self.cases.all.iter().any(of_case)
         };
         let name = self.outputs.iter().find(named).map(|(name, _)| name);

@@ -78,6 +78,10 @@ fn near_the_boundary_only_what_is_not_as_inside_is_drawn() {
     let labels = written(&folder.read("a.svg"));
     let captions: Vec<&str> = labels.iter().map(String::as_str).filter(|label| label.contains("edge")).collect();
     assert_eq!(captions, ["edge", "boundary edge"]);
+    // A corner of a face inside a face is none of the vertices that were there.
+    let folder = Folder::with(&[("doo-sabin.vv", include_str!("../../../../assets/programs/doo-sabin.vv"))]);
+    folder.check("mask doo-sabin.vv -o a.svg", 0, "");
+    assert!(written(&folder.read("a.svg")).contains(&"face".to_owned()));
 }
 
 #[test]
