@@ -23,8 +23,11 @@ mod style;
 mod view;
 mod watch;
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 use app::alike::closest;
@@ -186,7 +189,7 @@ struct Importing {
     #[arg(long, value_name = "SECONDS", default_value = "300", allow_negative_numbers = true, value_parser = seconds)]
     timeout: Timeout,
     /// How many vertices a mesh may have.
-    #[arg(long, value_name = "N", default_value_t = vv::engine::Limits::default().max_vertices)]
+    #[arg(long, value_name = "N", default_value_t = vv::engine::Limits::default().max_vertices, value_parser = vertices)]
     max_vertices: usize,
 }
 
@@ -265,6 +268,21 @@ fn seconds(text: &str) -> Result<Timeout, String> {
         return Ok(Timeout(None));
     }
     Duration::try_from_secs_f64(seconds).map(|d| Timeout(Some(d))).map_err(|_| wanted())
+}
+
+fn vertices(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "vertices are counted: a whole number such as 1000000".to_owned())
+}
+
+/// Reads how many of something there are, which is named for a sentence, such as `a valence`.
+fn count<T: Copy + Display + FromStr + PartialOrd>(
+    what: &'static str,
+    range: RangeInclusive<T>,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        number.ok_or_else(|| format!("{what} is a whole number from {} to {}", range.start(), range.end()))
+    }
 }
 
 /// `a`, `b` and `c`, each in back quotes.

@@ -39,6 +39,11 @@ pub fn fmt(arguments: &Arguments) -> Result<(), Exit> {
 fn one(path: &Path, check: bool, reporter: &Reporter) -> Result<(), Exit> {
     input::not_a_mesh(path, reporter)?;
     let failed = |error: files::FileError| input::file_failed(&error, reporter);
+    // What came out of a pipe does not go back into it.
+    if !check && !files::is_standard_stream(path) && path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        let message = "is no file that could be replaced";
+        return Err(failed(files::FileError::at(path, None, message, None)));
+    }
     let text = files::read_program(path).map_err(failed)?;
     let formatted = vv::syntax::format(&text).map_err(|diagnostics| {
         let mut sources = Sources::default();

@@ -11,7 +11,7 @@ use app::files;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use vv::diagnostic::{Diagnostic, Severity};
-use vv::engine::{Engine, Failure, FailureKind, Machine, Settings};
+use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
 use vv::ir::FunctionId;
 use vv::masks::{Around, Class, Masks, Star, TOLERANCE, fraction, judge, measure};
 use vv::mesh::faces::faces;
@@ -23,7 +23,7 @@ use super::info::json;
 use super::report::{Reporter, write_stdout};
 use super::run::checks::unknown_rule;
 use super::run::parameters;
-use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input};
+use super::{EXIT_CODES, Exit, Importing, Reporting, count, error, fail, input};
 use drawn::{DrawingArguments, Drawn};
 
 const EXAMPLES: &str = "\
@@ -48,13 +48,13 @@ pub struct Arguments {
     #[arg(short, long, value_name = "MESH")]
     input: Option<PathBuf>,
     /// The mask of this vertex of the result only, counted from 1.
-    #[arg(long, value_name = "NUMBER", requires = "input")]
+    #[arg(long, value_name = "NUMBER", requires = "input", value_parser = count("the number of a vertex", 1..=u32::MAX as usize))]
     vertex: Option<usize>,
     /// Around one vertex: what is around it. Default: triangles for rules that make triangles of triangles, else quads.
     #[arg(long, value_enum, value_name = "FACES", conflicts_with = "input")]
     around: Option<Faces>,
     /// Around one vertex: its valence. May be repeated. Default: 3 to 12.
-    #[arg(long, value_name = "N", conflicts_with = "input", value_parser = clap::value_parser!(u8).range(3..=64))]
+    #[arg(long, value_name = "N", conflicts_with = "input", value_parser = count("a valence", 3..=64u8))]
     valence: Vec<u8>,
     /// The rule. Default: `step`, else the program's last one.
     #[arg(long, value_name = "NAME")]
@@ -107,8 +107,9 @@ fn measured(arguments: &Arguments, reporter: &Reporter) -> Result<(), Exit> {
         .or_else(|diagnostic| fail(reporter, Exit::Usage, *diagnostic))?;
     let machine = Machine::new(Arc::clone(&program), Engine::Native);
     let rule_name = program.function(rule).map(|f| f.name.clone()).unwrap_or_default();
+    let limits = Limits { max_vertices: arguments.importing.max_vertices, ..machine_limits() };
     let table = within(arguments.importing.timeout.0, |stop| {
-        let settings = Settings { params, limits: machine_limits(), stop: stop.clone(), ..Settings::default() };
+        let settings = Settings { params, limits, stop: stop.clone(), ..Settings::default() };
         let bench = Bench { machine, rule, settings, reporter };
         match &arguments.input {
             Some(path) => bench.of_mesh(arguments, path),

@@ -9,7 +9,7 @@ use super::look::LookArguments;
 use super::output::OutputArguments;
 use super::report::Reporter;
 use super::run;
-use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail};
+use super::{EXIT_CODES, Exit, Importing, Reporting, count, error, fail};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(required = true, value_name = "MESH")]
     meshes: Vec<PathBuf>,
     /// Go around the mesh in N pictures: `{frame}` in their names is the number of each, from 0; a .gif holds them all.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
+    #[arg(long, value_name = "N", value_parser = count("the number of pictures", 2..=3600u32))]
     turntable: Option<u32>,
     #[command(flatten)]
     output: OutputArguments,

@@ -32,7 +32,9 @@ use super::output::{DEFAULT_SIZE, OutputArguments};
 use super::picture::{self, Exhibit, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
-use super::{DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, error, fail, info, input, output, warnings_of};
+use super::{
+    DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, count, error, fail, info, input, output, warnings_of,
+};
 use cases::Case;
 use plan::{Given, Plan, Sheet};
 use sheets::Exhibits;
@@ -89,7 +91,7 @@ pub struct Arguments {
     /// Go around the mesh in N pictures.
     ///
     /// `{frame}` in their names is the number of each, from 0; a .gif holds them all.
-    #[arg(long, help_heading = "Output", value_name = "N", value_parser = clap::value_parser!(u32).range(2..=3600))]
+    #[arg(long, help_heading = "Output", value_name = "N", value_parser = count("the number of pictures", 2..=3600u32))]
     turntable: Option<u32>,
     /// Give a `param` of the program another value.
     ///

@@ -33,3 +33,10 @@ fn a_program_that_cannot_be_read_without_doubt_is_left_as_it_is() {
     folder.check("fmt none.vv", 3, "none.vv");
     folder.check("fmt octahedron.obj", 2, "octahedron.obj is a mesh");
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn what_is_no_file_is_not_replaced() {
+    check("fmt /dev/null", 3, "/dev/null: is no file that could be replaced");
+    check("fmt --check /dev/null", 0, "");
+}

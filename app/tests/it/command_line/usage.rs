@@ -29,6 +29,13 @@ fn a_command_line_that_cannot_be_meant_so_says_why() {
         ("run move.vv -i octahedron.obj -o -", "`-o -` does not say what to write\n--format"),
         ("run move.vv -i octahedron.obj -o x.stp", "`-o x.stp` has no extension that vv writes\n`.obj`"),
         ("run move.vv -i octahedron.obj -o x.obj -o x.obj", "`-o x.obj` is given twice"),
+        (
+            "run move.vv -i octahedron.obj --turntable 1 -o a.gif",
+            "the number of pictures is a whole number from 2 to 3600",
+        ),
+        ("mesh info octahedron.obj --max-vertices 1e9", "vertices are counted: a whole number such as 1000000"),
+        ("mask move.vv --valence 2", "a valence is a whole number from 3 to 64"),
+        ("mask move.vv -i octahedron.obj --vertex 0", "the number of a vertex is a whole number from 1 to 4294967295"),
         ("run move.vv -i octahedron.obj -o x.obj -o ./x.obj", "`-o x.obj` and `-o ./x.obj` are the same file"),
         ("mesh convert octahedron.obj -o x.off -o ./x.off", "`-o x.off` and `-o ./x.off` are the same file"),
         ("mask move.vv -o x.svg -o ./x.svg", "`-o x.svg` and `-o ./x.svg` are the same file"),
