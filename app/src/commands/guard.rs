@@ -1,9 +1,11 @@
 //! The last words when the window ends without being asked to.
 //!
 //! When an X server goes away, Xlib calls C's `exit(1)` from the middle of the window's loop: nothing of ours is unwound,
-//! but what the thread owns is dropped, and so it can say what has happened and give the exit code its meaning.
+//! but what the thread owns is dropped, and so it can say what has happened and give the exit code its meaning. Whoever
+//! asks the server something at that moment, as winit does in each frame, panics before.
 
 use std::cell::Cell;
+use std::panic;
 
 use vv::source::Sources;
 
@@ -45,8 +47,23 @@ impl Guard {
     /// From now on the window is open.
     pub fn new() -> Self {
         WINDOW.with(|window| window.open.set(true));
+        let usual = panic::take_hook();
+        panic::set_hook(Box::new(move |what| {
+            let file = what.location().map_or("", |place| place.file());
+            if is_loss(file, what.payload_as_str().unwrap_or_default()) {
+                WINDOW.with(|window| window.open.set(false));
+                display_lost(&Reporter::new(DiagnosticFormat::Human));
+                std::process::exit(Exit::NoRenderer as i32);
+            }
+            usual(what);
+        }));
         Self(())
     }
+}
+
+/// Whether this is how winit fails where it asks an X server that is gone.
+fn is_loss(file: &str, message: &str) -> bool {
+    file.contains("winit") && message.contains("Connection(IoError")
 }
 
 impl Drop for Guard {
@@ -55,5 +72,18 @@ impl Drop for Guard {
         if std::thread::panicking() {
             say(&Reporter::new(DiagnosticFormat::Human), "vv itself failed, which is a mistake in vv");
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lost_display_is_no_mistake_of_ours() {
+        let message = "called `Result::unwrap()` on an `Err` value: Connection(IoError(Custom { kind: Other }))";
+        assert!(is_loss("/registry/winit-0.30.13/src/platform_impl/linux/x11/window.rs", message));
+        assert!(!is_loss("app/src/gui.rs", message));
+        assert!(!is_loss("/registry/winit-0.30.13/src/lib.rs", "index out of bounds"));
     }
 }

@@ -1,7 +1,7 @@
 //! Colours, fonts and distances.
 
 use eframe::egui::{
-    Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Margin, Stroke, StrokeKind, Style,
+    Color32, Context, CornerRadius, FontDefinitions, FontFamily, FontId, Frame, Id, Margin, Stroke, StrokeKind, Style,
     TextStyle, Theme, Ui, Visuals, epaint::FontColorTransferFunction, epaint::Shadow, vec2,
 };
 use vv::diagnostic::Severity;
@@ -139,7 +139,10 @@ fn light() -> Visuals {
 
 /// Shows which part has the keys, around whatever it is; for the end of a pass.
 pub fn focus_ring(ctx: &Context) {
-    let Some(response) = ctx.memory(|m| m.focused()).and_then(|id| ctx.read_response(id)) else { return };
+    // What was closed has the keys until the end of the pass.
+    let shown = |id: &Id| ctx.viewport(|viewport| viewport.this_pass.widgets.contains(*id));
+    let focused = ctx.memory(|m| m.focused()).filter(shown);
+    let Some(response) = focused.and_then(|id| ctx.read_response(id)) else { return };
     let visible = response.rect.intersect(response.interact_rect.expand(2.0));
     let clip = response.interact_rect.expand(3.0);
     if visible.is_positive() {
@@ -208,6 +211,7 @@ pub fn token(dark: bool, class: TokenClass) -> Color32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::{RawInput, Shape};
 
     /// How light a colour is, from 0 to 1 (WCAG 2.2, relative luminance).
     fn luminance(color: Color32) -> f64 {
@@ -287,5 +291,22 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn what_was_closed_has_no_focus_ring_left() {
+        let ctx = Context::default();
+        let mut is_ringed = |is_open: bool| {
+            let mut output = ctx.run_ui(RawInput::default(), |ui| {
+                if is_open {
+                    ui.button("mine").request_focus();
+                }
+                focus_ring(ui.ctx());
+            });
+            output.textures_delta.clear();
+            let ink = ctx.global_style().visuals.hyperlink_color;
+            output.shapes.iter().any(|s| matches!(&s.shape, Shape::Rect(rect) if rect.stroke.color == ink))
+        };
+        assert_eq!([true, true, false].map(&mut is_ringed), [true, true, false]);
     }
 }
