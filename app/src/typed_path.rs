@@ -23,7 +23,8 @@ impl Entry {
     }
 }
 
-/// The path that is meant by a text.
+/// The path that is meant by a text. A whole path that is typed or pasted behind a folder counts by itself, as in Emacs:
+/// `/here//there` is `/there`, and `/here/~/there` is at home.
 #[must_use]
 pub fn expand(text: &str) -> PathBuf {
     expand_at(text, home().as_deref())
@@ -31,6 +32,8 @@ pub fn expand(text: &str) -> PathBuf {
 
 fn expand_at(text: &str, home: Option<&Path>) -> PathBuf {
     let text = text.trim();
+    let whole = ["//", "/~/"].iter().filter_map(|mark| text.rfind(mark)).filter(|&at| at > 0).max();
+    let text = whole.map_or(text, |slash| &text[slash + 1..]);
     match (text.strip_prefix('~'), home) {
         (Some(""), Some(home)) => home.to_owned(),
         (Some(rest), Some(home)) if rest.starts_with('/') => home.join(rest.trim_start_matches('/')),
@@ -144,6 +147,20 @@ mod tests {
         assert_eq!(expand_at("~/a.obj", None), Path::new("~/a.obj"));
         assert_eq!(shown_at(Path::new("/home/ann/b/a.obj"), home), "~/b/a.obj");
         assert_eq!(shown_at(Path::new("/home/anna/a.obj"), home), "/home/anna/a.obj");
+    }
+
+    #[test]
+    fn a_whole_path_behind_a_folder_counts_by_itself() {
+        let check = |typed: &str, meant: &str| {
+            assert_eq!(expand_at(typed, Some(Path::new("/home/ann"))), Path::new(meant), "{typed}");
+        };
+        check("/here//there/a.obj", "/there/a.obj");
+        check("~/here//there//b", "/b");
+        check("/here/~/a.obj", "/home/ann/a.obj");
+        check("/here//~/there//a.obj", "/a.obj");
+        check("//host/a.obj", "//host/a.obj");
+        assert_eq!(folder("/here//there/a"), Path::new("/there/"));
+        assert_eq!(folder("/here//"), Path::new("/"));
     }
 
     #[test]
