@@ -64,6 +64,15 @@ fn remeshing_keeps_handles_and_holes() {
 }
 
 #[test]
+fn remeshing_makes_triangles_of_other_faces() {
+    for (mesh, euler) in [("torus-quads.obj", 0), ("pawn.obj", 2), ("grid-open-quads.obj", 1)] {
+        let counts = Show::on_mesh(mesh, "remesh.vv", &[]).steps(5).statistics();
+        assert!(counts.valid && counts.face_degrees.iter().all(|&(n, _)| n == 3), "{mesh}");
+        assert_eq!(counts.euler_characteristic, euler, "{mesh}");
+    }
+}
+
+#[test]
 fn remeshing_leaves_a_flat_sheet_flat_and_its_outline() {
     let before = Show::on_mesh("grid-open.obj", "remesh.vv", &[]);
     let area = before.area();

@@ -56,7 +56,7 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("paper-sqrt3.vv", None, Class::ClosedTriangles),
     ("quad-triangle.vv", None, Class::Polygons),
     ("reaction-diffusion.vv", None, Class::Polygons),
-    ("remesh.vv", None, Class::Triangles),
+    ("remesh.vv", None, Class::Polygons),
     ("sierpinski.vv", None, Class::Triangles),
     ("sierpinski-tetrahedron.vv", None, Class::ClosedPolygons),
     ("smooth.vv", None, Class::Polygons),
