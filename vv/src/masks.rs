@@ -44,7 +44,8 @@ pub struct Masks {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// Moving the mesh would not move it along.
-    #[error("the weights of {vertex} sum to {sum}, not to 1")]
+    // (With zero added, for -0 is 0 to a reader.)
+    #[error("the weights of {vertex} sum to {}, not to 1", .sum + 0.0)]
     Sum {
         /// The new vertex.
         vertex: Vertex,
@@ -52,7 +53,7 @@ pub enum Fault {
         sum: f64,
     },
     /// Something else than weighted sums.
-    #[error("{vertex} is not affine in the old positions: off by {distance:e} from the sum of its weights")]
+    #[error("{vertex} is not affine in the old positions: off by {distance:.1e} from the sum of its weights")]
     NotAffine {
         /// The new vertex.
         vertex: Vertex,

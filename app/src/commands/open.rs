@@ -5,11 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use app::files;
+use clap::CommandFactory as _;
 use vv::diagnostic::Diagnostic;
 use vv::io::Format;
 
 use super::report::Reporter;
-use super::{DiagnosticFormat, Exit, closest, error, fail, guard, input, view};
+use super::{Cli, DiagnosticFormat, Exit, closest, error, fail, guard, input, view};
 
 /// Opens the modeler, and says why it ended if it was not asked to.
 pub fn open(paths: &[PathBuf], viewpoint: Option<&str>) -> Result<(), Exit> {
@@ -90,9 +91,11 @@ fn unknown(path: &Path) -> Diagnostic {
     let shown = path.display().to_string();
     let diagnostic =
         error(format!("`{shown}` is neither a program (.vv) nor a project (.vvp) nor a mesh nor a command"));
-    match closest(&shown, ["run", "check", "fmt", "mesh", "help"]) {
+    let command = Cli::command();
+    let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    match closest(&shown, names.iter().copied().chain(["help"])) {
         Some(command) => diagnostic.hint(format!("did you mean `vv {command}`?")),
-        None => diagnostic.hint("the commands are `run`, `check`, `fmt` and `mesh`; `vv --help` explains them"),
+        None => diagnostic.hint(format!("the commands are `{}`; `vv --help` explains them", names.join("`, `"))),
     }
 }
 

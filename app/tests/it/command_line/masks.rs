@@ -31,6 +31,7 @@ fn masks_of_a_mesh_are_those_of_its_vertices() {
 fn what_is_no_mask_is_warned_of() {
     check_file("up.vv", "void step(mesh& S) { forall v in S v$pos.z += 1; }\n", "mask up.vv", 0, "is not affine");
     check_file("twice.vv", "void step(mesh& S) { forall v in S v$pos *= 2; }\n", "mask twice.vv", 0, "sum to 2");
+    check_file("none.vv", "void step(mesh& S) { forall v in S v$pos *= -0.0; }\n", "mask none.vv", 0, "sum to 0, not");
     let text = "void step(mesh& S) { forall v in S { vertex q = any in v; v$pos = (v$pos + q$pos) / 2; } }\n";
     check_file("greedy.vv", text, "mask greedy.vv", 0, "the masks depend on the order of the vertices");
     check_file("start.vv", "void start(mesh& S) { }\n", "mask start.vv", 1, "has no rule, so there is no mask");

@@ -18,4 +18,6 @@ fn what_cannot_be_opened_is_said_before() {
         2,
         "`chek` is neither a program (.vv) nor a project (.vvp) nor a mesh nor a command\n`vv check`",
     );
+    check("rendr move.vv", 2, "`vv render`");
+    check("bicycle", 2, "the commands are `run`, `watch`, `render`, `check`, ");
 }
