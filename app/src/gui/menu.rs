@@ -36,10 +36,6 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             let button = ui.menu_button(title, |ui| {
                 ui.set_min_width(210.0);
                 entries(ui, session, commands, menu);
-                if menu.title == "File" && !session.recent().is_empty() {
-                    ui.separator();
-                    inner(ui, "Open recent", has_ticks(session, menu), |ui| recent(ui, session, commands));
-                }
                 if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
                     ui.separator();
                 }
@@ -103,6 +99,9 @@ fn entries(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, menu: &M
         }
         for command in *group {
             menu_item(ui, session, commands, command.clone(), ticks);
+        }
+        if i == 0 && menu.title == "File" && !session.recent().is_empty() {
+            inner(ui, "Open recent", ticks, |ui| recent(ui, session, commands));
         }
     }
 }

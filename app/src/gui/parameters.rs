@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         bold(ui, "Parameters");
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let reset = Command::ResetParams;
-            let button = ui.add_enabled(reset.is_enabled(session), Button::new("Reset all"));
+            let button = ui.add_enabled(reset.is_enabled(session), Button::new("Reset")).accessible_name("Reset all");
             if button.on_hover_ui(|ui| tooltip(ui, &reset)).clicked() {
                 commands.push(reset);
             }

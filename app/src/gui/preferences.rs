@@ -4,7 +4,7 @@ use eframe::egui::{
     ComboBox, Context, DragValue, Frame, Grid, Id, Key, Margin, Modal, RichText, Slider, SliderClamping, Ui,
 };
 
-use super::widgets::check_box;
+use super::widgets::{check_box, first_choice};
 use crate::camera::Up;
 use crate::command::{Command, Panel, Reload, ThemeChoice, ViewAction};
 use crate::navigation::{Preset, Turning};
@@ -52,7 +52,7 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
         });
         ui.add_space(12.0);
         ui.horizontal(|ui| {
-            if ui.button(RichText::new("Done").strong()).clicked() {
+            if ui.add(first_choice(ui, "Done")).clicked() {
                 commands.push(Command::CloseDialog);
             }
             let reset = ui.button("Reset to defaults").on_hover_text("everything here as it was at first");

@@ -6,7 +6,7 @@ use eframe::egui::{
 use vv::mesh::{Mesh, Value, Vertex};
 
 use super::ring::{self, vertex_link};
-use super::widgets::{Icon, button, heading, heading_with, icon_button, menu_entry};
+use super::widgets::{Icon, button, first_choice, heading, heading_with, icon_button, menu_entry};
 use crate::annotate::{Label, Quantity};
 use crate::command::{Command, Inspect};
 use crate::inspect::measure::{FaceMeasure, angle, dihedral, short};
@@ -344,7 +344,7 @@ pub fn ask(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
         ui.add_space(8.0);
         ui.horizontal(|ui| {
             let able = numbers.is_some();
-            let select = ui.add_enabled(able, eframe::egui::Button::new(RichText::new("Select").strong())).clicked();
+            let select = ui.add_enabled_ui(able, |ui| ui.add(first_choice(ui, "Select"))).inner.clicked();
             if (select || entered) && able {
                 chosen = numbers;
             }
