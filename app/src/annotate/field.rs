@@ -241,6 +241,9 @@ fn column<'a>(subject: &Subject<'a>, name: &str) -> Result<&'a Values, NoField> 
     if let Some(property) = properties.iter().find(|property| property.name == name) {
         return Ok(&property.values);
     }
+    if name.starts_with("change:") {
+        return Err(NoField::Missing("after the colon stands the number of a generation, as in `change:2`".to_owned()));
+    }
     let names: Vec<_> = properties.iter().map(|property| format!("`{}`", property.name)).collect();
     Err(NoField::Missing(match names.len() {
         0 => format!("no vertex property `{name}` here, nor any other"),

@@ -13,8 +13,8 @@ use super::body::Role;
 /// Searching costs as much as there are names; after so many unknown ones the cause lies elsewhere.
 pub(super) const MAX_SEARCHES: u32 = 50;
 
-/// What the files that are made to be included define.
-pub(super) const SHIPPED: [(&str, &[&str]); 7] = [
+/// What the files that come with vv define and others may want: those made to be included, and the schemes.
+pub(super) const SHIPPED: [(&str, &[&str]); 11] = [
     ("insert.vv", &["insert"]),
     ("split.vv", &["split"]),
     ("solids.vv", &["is_empty", "tetrahedron", "cube", "octahedron", "icosahedron", "solid"]),
@@ -22,6 +22,10 @@ pub(super) const SHIPPED: [(&str, &[&str]); 7] = [
     ("ptt.vv", &["ptt"]),
     ("pqq.vv", &["pqq"]),
     ("dqq.vv", &["dqq"]),
+    ("loop.vv", &["loop"]),
+    ("butterfly.vv", &["butterfly"]),
+    ("catmull-clark.vv", &["catmull_clark"]),
+    ("doo-sabin.vv", &["doo_sabin"]),
 ];
 
 /// Where an unknown name stands.

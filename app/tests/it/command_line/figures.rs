@@ -109,6 +109,11 @@ fn labels_are_written_at_what_is_seen() {
 fn labels_that_a_mesh_cannot_have_are_refused() {
     check("mesh convert octahedron.obj -o a.svg --labels heat", 2, "no vertex property `heat` here");
     check("mesh convert octahedron.obj -o a.svg --labels numbers", 2, "add `--color-by WHAT`");
+    check(
+        "mesh convert octahedron.obj -o a.svg --color-by change:x",
+        2,
+        "the number of a generation, as in `change:2`",
+    );
     check("mesh convert octahedron.obj -o a.svg --ring 7", 2, "there is no vertex v7 whose ring could be shown");
     check("mesh convert octahedron.obj -o a.svg --ring 0", 2, "vertices are counted from 1");
     check("mesh convert octahedron.obj -o a.svg --font-size 0", 2, "the height of letters is in points");

@@ -176,6 +176,7 @@ fn of_very_many_mistakes_the_first_are_shown_and_errors_before_warnings() {
 #[test]
 fn functions_that_people_expect_have_a_hint() {
     for (call, hint) in [
+        ("catmull_clark(S);", "one comes with vv: `#include \"catmull-clark.vv\"`"),
         ("vertex x = insert(p, p);", "one comes with vv: `#include \"insert.vv\"`"),
         ("vertex x = vertex();", "`vertex v;` creates a vertex"),
         ("int n = size(S);", "count in a loop: `int n = 0; forall v in S n += 1;`"),
