@@ -92,7 +92,7 @@ impl Gallery {
                 selected = rows.first().and_then(|(_, row)| row.first().copied()).unwrap_or(0);
             }
             if rows.is_empty() {
-                ui.weak("no program is called so");
+                ui.weak("neither name nor description of any program says that");
             }
             ScrollArea::vertical().auto_shrink(egui::Vec2b::FALSE).show(ui, |ui| {
                 let width = (ui.available_width() - GAP * (columns - 1) as f32 - 8.0) / columns as f32;

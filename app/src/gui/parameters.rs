@@ -1,6 +1,6 @@
 //! The parameters of the program: sliders, boxes and fields, and sets of values under a name.
 
-use eframe::egui::{self, Align, Button, DragValue, Id, Key, Layout, RichText, Slider, TextEdit, Ui};
+use eframe::egui::{self, Align, Align2, Button, DragValue, Id, Key, Layout, RichText, Slider, TextEdit, Ui};
 use vv::ir::{Global, Param, Program};
 use vv::mesh::Value;
 use vv::source::FileId;
@@ -81,7 +81,8 @@ fn sets(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let id = Id::unique("name of a set");
         let mut name: String = ui.data(|d| d.get_temp(id)).unwrap_or_default();
-        let field = ui.add(TextEdit::singleline(&mut name).hint_text("name").desired_width(100.0));
+        let field =
+            ui.add(TextEdit::singleline(&mut name).hint_text("name").desired_width(100.0).align(Align2::LEFT_CENTER));
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         field.accessible_name("Name of the set");
         let named = !name.trim().is_empty();

@@ -1,7 +1,8 @@
 //! The dialog in which everything is set as the user likes it.
 
 use eframe::egui::{
-    ComboBox, Context, DragValue, Frame, Grid, Id, Key, Margin, Modal, RichText, Slider, SliderClamping, Ui,
+    Align, ComboBox, Context, DragValue, Frame, Grid, Id, Key, Layout, Margin, Modal, RichText, Slider, SliderClamping,
+    Ui, vec2,
 };
 
 use super::widgets::{check_box, first_choice};
@@ -148,17 +149,24 @@ fn window(ui: &mut Ui, session: &Session, preferences: &mut Preferences, command
             let parse = |text: &str| Some(text.trim().trim_end_matches('%').trim().parse::<f64>().ok()? / 100.0);
             ui.add(field.update_while_editing(false).custom_formatter(percent).custom_parser(parse))
         });
-        ui.label("Panels");
-        ui.horizontal_wrapped(|ui| {
-            for (panel, name) in PANELS {
-                let mut on = session.panels.is_open(panel);
-                let command = Command::Toggle(panel);
-                if check_box(ui, &mut on, name).on_hover_text(command.describe().tooltip).changed() {
-                    commands.push(command);
+        // In rows of the table, two and two: wrapped in one cell they would stand apart from the other rows.
+        for (i, row) in PANELS.chunks(2).enumerate() {
+            ui.label(if i == 0 { "Panels" } else { "" });
+            ui.horizontal(|ui| {
+                for &(panel, name) in row {
+                    let size = vec2(96.0, ui.spacing().interact_size.y);
+                    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+                        ui.set_min_width(size.x);
+                        let mut on = session.panels.is_open(panel);
+                        let command = Command::Toggle(panel);
+                        if check_box(ui, &mut on, name).on_hover_text(command.describe().tooltip).changed() {
+                            commands.push(command);
+                        }
+                    });
                 }
-            }
-        });
-        ui.end_row();
+            });
+            ui.end_row();
+        }
     });
 }
 

@@ -82,6 +82,8 @@ impl Reference {
         field.accessible_name("Find in the reference");
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(14.0, 3.0);
+            // The first line as high as the others.
+            ui.spacing_mut().interact_size.y = 0.0;
             for (i, section) in SECTIONS.iter().enumerate().filter(|(_, s)| fits(s)) {
                 // A name of two words is not broken.
                 if ui.link(section.title.replace(' ', "\u{a0}")).accessible_name(&section.title).clicked() {
