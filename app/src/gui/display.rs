@@ -1,6 +1,7 @@
 //! How the mesh is drawn, and what is shown on it.
 
 use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
+use vv::io::COLOR;
 use vv::mesh::Type;
 
 use super::widgets::{button, heading_with, switch, tooltip};
@@ -38,20 +39,26 @@ fn group(ui: &mut Ui, title: &str, open: bool, show: impl FnOnce(&mut Ui)) {
 
 fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     let Annotations { color_by, range, .. } = &session.document.annotations;
+    let properties = session.frame().map_or(&[][..], |frame| frame.mesh.vertex_properties());
+    // Vertices that have colours of their own show them where nothing else is asked for.
+    let colored = properties.iter().any(|p| p.name == COLOR && p.values.ty() == Type::Vec);
+    let title = |quantity: &Quantity| match quantity {
+        Quantity::Plain if colored => "its own colours".to_owned(),
+        quantity => quantity.title(),
+    };
     let combo = ComboBox::from_id_salt("colour by")
-        .selected_text(color_by.title())
+        .selected_text(title(color_by))
         .truncate()
         .height(420.0)
         .width(ui.available_width());
     let response = combo.show_ui(ui, |ui| {
         for (_, quantity) in &Quantity::NAMED {
             let command = Command::ColorBy(quantity.clone());
-            let entry = ui.selectable_label(quantity == color_by, quantity.title());
+            let entry = ui.selectable_label(quantity == color_by, title(quantity));
             if entry.on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
                 commands.push(command);
             }
         }
-        let properties = session.frame().map_or(&[][..], |frame| frame.mesh.vertex_properties());
         for property in properties.iter().filter(|p| p.values.ty() != Type::Vertex) {
             let is_vec = property.values.ty() == Type::Vec;
             let mut offer = |quantity: Quantity, tooltip: &str| {
@@ -105,8 +112,9 @@ fn compared(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         Quantity::Since(generation) => generation,
         _ => return,
     };
-    ui.horizontal(|ui| {
-        let label = ui.label("since generation");
+    ui.horizontal_wrapped(|ui| {
+        // Short, and broken in a narrow panel, which would grow else and move the picture.
+        let label = ui.label("since gen.");
         let field = DragValue::new(&mut since).range(0..=session.last_reached()).speed(0.05);
         let field = ui.add(field.update_while_editing(false)).labelled_by(label.id);
         if field.on_hover_text("which generation the one shown is compared with").changed() {

@@ -5,6 +5,7 @@ use eframe::egui::{self, Align, Grid, Layout, RichText, ScrollArea, Ui, Vec2b};
 use super::widgets::{grouped, heading, seconds};
 use super::{display, parameters, selection, theme};
 use crate::command::Command;
+use crate::document::MeshSource;
 use crate::session::{Purpose, Session};
 use crate::worker::Frame;
 
@@ -14,7 +15,7 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     area.show(ui, |ui| {
         heading(ui, "Mesh");
         ui.horizontal(|ui| {
-            ui.add(egui::Label::new(session.document.mesh.name()).truncate());
+            ui.add(egui::Label::new(mesh_name(session)).truncate());
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let response = ui.button("Open…").on_hover_text("open a mesh file");
                 if response.clicked() {
@@ -35,6 +36,13 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             }
         }
     });
+}
+
+/// Where the first generation comes from.
+fn mesh_name(session: &Session) -> String {
+    let source = &session.document.mesh;
+    let made = session.frame().is_some_and(|frame| frame.mesh.vertex_count() > 0);
+    if *source == MeshSource::Empty && made { "made by the program".to_owned() } else { source.name() }
 }
 
 fn statistics(ui: &mut Ui, frame: &Frame) {

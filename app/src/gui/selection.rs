@@ -255,7 +255,10 @@ fn distance(ui: &mut Ui, mesh: &Mesh, unit: Unit, [a, b]: [Vertex; 2]) {
     let named = |p: Vertex, q: Vertex| mesh.ring(p).contains(Some(q));
     table(ui, "of two vertices", |ui| {
         row(ui, "Distance", unit.length(between.length()));
-        row(ui, "From one to the other", value(Value::Vec(between)));
+        // In rows of their own they have room also in a narrow panel.
+        for (axis, along) in [("x", between.x), ("y", between.y), ("z", between.z)] {
+            row(ui, &format!("Along {axis}"), short(along));
+        }
         let neighbours = match (named(a, b), named(b, a)) {
             (true, true) => "yes".to_owned(),
             (true, false) => format!("{a} → {b} only"),

@@ -382,6 +382,7 @@ fn a_program_that_builds_its_own_mesh_is_given_none_and_one_that_needs_one_gets_
     choose(&mut window, "Examples", "mountain.vv");
     assert_eq!(window.state().session().document.mesh, MeshSource::Empty);
     assert!(faces(&window) > 0);
+    window.get_by_label("made by the program");
     choose(&mut window, "Examples", "loop.vv");
     assert!(matches!(window.state().session().document.mesh, MeshSource::BuiltIn(_)));
     assert!(faces(&window) > 0);

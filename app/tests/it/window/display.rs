@@ -37,6 +37,27 @@ fn a_quantity_is_chosen_from_a_list_and_explained_beside_the_mesh() {
 }
 
 #[test]
+fn a_surface_with_colours_of_its_own_is_not_said_to_have_none() {
+    let mut window = octahedron();
+    let shown = |window: &Harness<'static, App>| window.get_by_label("Colour by").value();
+    assert_eq!(shown(&window).as_deref(), Some("nothing"));
+    write(&mut window, "vertex { vec color; };\nvoid f(mesh& S) { forall v in S v$color = vec(1, 0, 0); }\n");
+    click(&mut window, "Step");
+    settle(&mut window);
+    assert_eq!(shown(&window).as_deref(), Some("its own colours"));
+}
+
+#[test]
+fn showing_the_change_moves_nothing_in_the_window() {
+    let mut window = octahedron();
+    let before = window.get_by_label("Viewport").rect();
+    window.state_mut().apply(Command::ColorBy(Quantity::Change));
+    colored(&mut window);
+    window.run_steps(4);
+    assert_eq!(window.get_by_label("Viewport").rect(), before);
+}
+
+#[test]
 fn properties_of_the_program_are_offered_and_their_range_can_be_set() {
     let mut window = octahedron();
     write(&mut window, "vertex { double heat = 0.0; };\nvoid f(mesh& S) { forall v in S v$heat = v$pos.x; }\n");

@@ -109,6 +109,8 @@ fn more_is_selected_with_shift_and_measured() {
         click_at(&mut window, at, Modifiers::SHIFT);
     }
     says(&window, "Distance", "1");
+    says(&window, "Along x", "1");
+    says(&window, "Along y", "0");
     let at = position(&window, 3);
     click_at(&mut window, at, Modifiers::SHIFT);
     says(&window, "Angle at v2", "90°");
