@@ -149,8 +149,11 @@ const STATES: &[State] = &[
         name: "ring-pointed-at",
         prepare: |w| {
             select_at(w, 1, &[12]);
-            let neighbour = side_at(w, 11).map(|[_, neighbour]| neighbour);
-            do_(w, Command::Inspect(Inspect::Point(neighbour)));
+            if let Some([_, neighbour]) = side_at(w, 11) {
+                let name = neighbour.to_string();
+                let at = w.query_all_by_label(&name).next().map(|node| node.rect().center());
+                rest(w, at.unwrap_or_default());
+            }
         },
     },
     State { name: "distance", prepare: |w| select_at(w, 1, &[12, 20]) },
@@ -166,6 +169,22 @@ const STATES: &[State] = &[
             do_(w, Command::GoTo(1));
             settle(w);
             do_(w, Command::Inspect(Inspect::ListProblems));
+        },
+    },
+    State {
+        name: "context-menu-of-a-finding",
+        prepare: |w| {
+            edit(w, |_| "void tear(mesh& S) {\n  vertex x;\n  add x to S;\n}\n".into());
+            do_(w, Command::GoTo(1));
+            settle(w);
+            do_(w, Command::Inspect(Inspect::ListProblems));
+            settle(w);
+            let finding = w.query_all_by(|node| node.label().is_some_and(|text| text.starts_with("v29"))).next();
+            match finding {
+                Some(node) => node.click_secondary(),
+                None => eprintln!("there is no finding to be clicked"),
+            }
+            w.run_steps(4);
         },
     },
     State {
@@ -245,12 +264,39 @@ const STATES: &[State] = &[
         name: "property",
         prepare: |w| {
             exhibit(w, "distance.vv", 20);
+            do_(w, Command::ColorBy(Quantity::Property("far".to_owned())));
             settle(w);
             click(w, "Labels and arrows");
         },
     },
+    State {
+        name: "context-menu-of-a-property",
+        prepare: |w| {
+            exhibit(w, "distance.vv", 20);
+            settle(w);
+            do_(w, Command::Inspect(Inspect::SelectNumbers(vec![12])));
+            // The value, not the name.
+            let value = w.query_all_by(|node| {
+                node.label().as_deref() == Some("far") && node.value().is_some_and(|value| value != "far")
+            });
+            match value.last() {
+                Some(node) => node.click_secondary(),
+                None => eprintln!("there is no property to be clicked"),
+            }
+            w.run_steps(4);
+        },
+    },
     State { name: "curvature", prepare: |w| do_(w, Command::ColorBy(Quantity::Gauss)) },
-    State { name: "reflection-lines", prepare: |w| do_(w, Command::ShowBy(Surface::ReflectionLines)) },
+    State {
+        name: "reflection-lines",
+        prepare: |w| {
+            do_(w, Command::GoTo(4));
+            do_(w, Command::Smooth);
+            do_(w, Command::Edges);
+            do_(w, Command::Control);
+            do_(w, Command::ShowBy(Surface::ReflectionLines));
+        },
+    },
     State {
         name: "cut",
         prepare: |w| {
@@ -315,9 +361,23 @@ const STATES: &[State] = &[
     State {
         name: "console",
         prepare: |w| {
-            edit(w, |_| "void f(mesh& S) {\n  forall v in S print(\"at\", v$pos);\n}\n".into());
+            edit(w, |_| "void f(mesh& S) {\n  forall v in S print(\"at \", v$pos);\n}\n".into());
             settle(w);
             click(w, "Console");
+        },
+    },
+    State {
+        name: "context-menu-of-a-line",
+        prepare: |w| {
+            edit(w, |_| "void f(mesh& S) {\n  forall v in S print(\"around \", v, \": \", valence v);\n}\n".into());
+            settle(w);
+            click(w, "Console");
+            let line = w.query_all_by(|node| node.value().is_some_and(|text| text.starts_with("around"))).last();
+            match line {
+                Some(node) => node.click_secondary(),
+                None => eprintln!("there is no line to be clicked"),
+            }
+            w.run_steps(4);
         },
     },
     State {
