@@ -4,6 +4,7 @@ mod change;
 mod completion;
 mod find;
 mod foot;
+mod header;
 mod page;
 mod tuning;
 mod typing;
@@ -19,7 +20,6 @@ use eframe::egui::{
 };
 use vv::assist::{Assist, number_at};
 
-use super::widgets::sides;
 use super::{messages, theme};
 use crate::command::{Command, TextAction};
 use crate::session::{Place, Problem, Reveal, Session};
@@ -93,9 +93,9 @@ impl Editor {
     ) {
         self.follow(ui.ctx(), session);
         self.reveal = reveal.or(self.reveal.take());
-        header(ui, session, commands);
+        header::show(ui, session, commands);
         if session.text_on_disk().is_some() {
-            conflict(ui, session, commands);
+            header::conflict(ui, session, commands);
         }
         if self.find.open {
             let selection = self.selected.clone();
@@ -517,58 +517,6 @@ fn own_problems(session: &Session) -> Vec<(&Problem, &Place)> {
 
 fn char_range(text: &str, range: &Range<usize>) -> CCursorRange {
     CCursorRange::two(CCursor::new(char_of(text, range.start)), CCursor::new(char_of(text, range.end)))
-}
-
-fn header(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let frame = egui::Frame::NONE.fill(ui.visuals().panel_fill).inner_margin(Margin::symmetric(12, 5));
-    frame.show(ui, |ui| {
-        let program = &session.document.program;
-        let name = |ui: &mut Ui| {
-            let name = ui.add(egui::Label::new(RichText::new(&program.name).strong()).truncate());
-            name.on_hover_text(match &program.path {
-                Some(path) => path.display().to_string(),
-                None => "ships with vv; save it to make it yours".to_owned(),
-            });
-        };
-        sides(ui, "program", ui.spacing().interact_size.y, name, |ui| {
-            if program.is_modified() {
-                ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
-            }
-            if session.text_waits() {
-                let response = ui.add(egui::Button::new("Run").small()).accessible_name("Run the changed text");
-                if response.on_hover_text("the text has changed since it was run (F5)").clicked() {
-                    commands.push(Command::Run);
-                }
-            }
-            let response = ui.add_enabled(program.is_modified() || program.path.is_none(), egui::Button::new("Save"));
-            let response = response.accessible_name("Save the program");
-            if response.on_hover_ui(|ui| super::widgets::tooltip(ui, &Command::Save)).clicked() {
-                commands.push(Command::Save);
-            }
-        });
-    });
-    ui.painter().hline(
-        ui.max_rect().x_range(),
-        ui.cursor().top() - ui.spacing().item_spacing.y,
-        ui.visuals().widgets.noninteractive.bg_stroke,
-    );
-    ui.add_space(-ui.spacing().item_spacing.y);
-}
-
-fn conflict(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let color = ui.visuals().warn_fg_color;
-    let frame = egui::Frame::NONE.fill(color.gamma_multiply(0.16)).inner_margin(Margin::symmetric(12, 5));
-    frame.show(ui, |ui| {
-        ui.horizontal(|ui| {
-            let text = RichText::new("The file has changed on disk.").color(color);
-            let text = |ui: &mut Ui| _ = ui.add(egui::Label::new(text).truncate());
-            sides(ui, "conflict", ui.spacing().interact_size.y, text, |ui| {
-                super::widgets::button(ui, session, commands, Command::TakeFromDisk);
-                super::widgets::button(ui, session, commands, Command::KeepMine);
-            });
-        });
-    });
-    ui.add_space(-ui.spacing().item_spacing.y);
 }
 
 /// Colours of a text.
