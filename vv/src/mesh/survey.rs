@@ -15,9 +15,10 @@ use crate::stop::{Stop, Stopped};
 pub(super) struct Survey {
     /// Entries that name members.
     pub entries: usize,
-    /// Sum over these entries: an entry u→v counts +h(u, v) if u < v, else −h(v, u), for a mixing function h. As no ring
-    /// names a vertex twice, it is 0 where all pairs answer, and otherwise 0 by a chance of 2⁻⁶⁴. That takes one pass
-    /// in order of memory, where looking for each entry's twin jumps about.
+    /// Sum over these entries: an entry v→x counts f(v) f(x) (f(x) − f(v)), for a function f that scatters, and its twin
+    /// x→v as much with the other sign. As no ring names a vertex twice, it is 0 where all pairs answer, and otherwise 0
+    /// by a chance of about 2⁻⁶². Powers of f(x) are summed round a ring, so that it takes one pass in order of memory,
+    /// where looking for each entry's twin jumps about.
     pub balance: u64,
     /// Those that name others than members.
     pub torn: Vec<Vertex>,
@@ -48,38 +49,55 @@ impl Survey {
     }
 
     fn of(mesh: &Mesh, members: &Members, range: Range<usize>) -> Self {
+        if let Members::From(1, n) = *members {
+            // Everything that exists is a member; asking for the largest name is less than asking for each.
+            let (survey, largest) = Self::of_those(mesh, range.clone(), |_| true);
+            if largest <= n {
+                return survey;
+            }
+        }
+        Self::of_those(mesh, range, |v| members.contains(v)).0
+    }
+
+    /// And the largest number that the rings name.
+    fn of_those(mesh: &Mesh, range: Range<usize>, is_member: impl Fn(Vertex) -> bool) -> (Self, u32) {
         let mut survey = Self::default();
+        let mut largest = 0;
         let slots = mesh.slots();
         let arrays = mesh.heads()[range.clone()].iter().zip(&mesh.positions()[range.clone()]);
         for (v, (head, position)) in range.filter_map(Vertex::from_index).zip(arrays) {
-            if !members.contains(v) {
+            if !is_member(v) {
                 continue;
             }
             let ring = slots.get(head.range()).unwrap_or(&[]);
-            let mut entries = 0;
-            let mut outside = 0;
-            for &x in ring.iter().flatten() {
-                if members.contains(x) {
-                    entries += 1;
-                    let h = if v < x { mix(v, x) } else { mix(x, v).wrapping_neg() };
-                    survey.balance = survey.balance.wrapping_add(h);
-                } else {
-                    outside += 1;
-                }
+            let (mut sum, mut squares, mut outside) = (0_u64, 0_u64, 0);
+            for &slot in ring {
+                let is_other = slot.is_some_and(|x| !is_member(x));
+                outside += usize::from(is_other);
+                largest = largest.max(number(slot));
+                // Gaps and others than members count 0, without a branch.
+                let x = if is_other { 0 } else { scattered(slot) };
+                sum = sum.wrapping_add(x);
+                squares = squares.wrapping_add(x.wrapping_mul(x));
             }
-            survey.entries += entries;
-            survey.valences.count(entries + outside);
+            let f = scattered(Some(v));
+            let differences = squares.wrapping_sub(f.wrapping_mul(sum));
+            survey.balance = survey.balance.wrapping_add(f.wrapping_mul(differences));
+            let mut entries = ring.len();
+            if let Some(None) = ring.last() {
+                survey.with_gaps.push(v);
+                entries = ring.iter().flatten().count();
+            }
+            survey.valences.count(entries);
+            survey.entries += entries - outside;
             if outside > 0 {
                 survey.torn.push(v);
-            }
-            if matches!(ring.last(), Some(None)) {
-                survey.with_gaps.push(v);
             }
             if !position.is_finite() {
                 survey.not_finite.push(v);
             }
         }
-        survey
+        (survey, largest)
     }
 }
 
@@ -102,12 +120,14 @@ pub(super) fn in_pieces<T: Send>(
     (0..n.div_ceil(PIECE)).into_par_iter().map(piece).collect()
 }
 
-/// The finalizer of splitmix64 over both numbers.
-fn mix(u: Vertex, v: Vertex) -> u64 {
-    let x = ((u.index() as u64) << 32 | v.index() as u64).wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
+/// Another number for each vertex, in which nothing is left of their order; 0 for none.
+fn scattered(v: Option<Vertex>) -> u64 {
+    let product = u128::from(number(v)) * 0x9E37_79B9_7F4A_7C15;
+    (product >> 64) as u64 ^ product as u64
+}
+
+fn number(v: Option<Vertex>) -> u32 {
+    v.map_or(0, |v| v.0.get())
 }
 
 /// How often each number occurs.
@@ -143,5 +163,33 @@ impl Histogram {
     /// The numbers that occur, ascending, each with how often.
     pub(super) fn into_pairs(self) -> Vec<(usize, usize)> {
         self.small.into_iter().enumerate().filter(|&(_, n)| n > 0).chain(self.large).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All ways in which five vertices may name each other.
+    #[track_caller]
+    fn check(vertices: [usize; 5]) {
+        let f = vertices.map(|i| scattered(Vertex::from_index(i)));
+        let h = |v: usize, x: usize| f[v].wrapping_mul(f[x]).wrapping_mul(f[x].wrapping_sub(f[v]));
+        let mut sums = vec![(0_u64, true)];
+        for (i, j) in (0..5).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            // Both name each other or neither does, or one does.
+            let ways = [(0, true), (h(i, j), false), (h(j, i), false)];
+            sums = sums.into_iter().flat_map(|(s, b)| ways.map(|(t, a)| (s.wrapping_add(t), a && b))).collect();
+        }
+        assert_eq!(sums.len(), 3_usize.pow(10));
+        assert!(sums.iter().all(|&(sum, all_answer)| (sum == 0) == all_answer), "{vertices:?}");
+    }
+
+    #[test]
+    fn rings_balance_only_where_all_pairs_answer() {
+        check([0, 1, 2, 3, 4]);
+        check([1, 2, 4, 8, 16]);
+        check([1000, 2000, 3000, 4000, 5000]);
+        check([0, 1 << 16, 1 << 24, 1 << 31, u32::MAX as usize - 1]);
     }
 }
