@@ -116,7 +116,7 @@ fn edit() {
     let path = folder.join("control.obj");
     let control = refined(&machine("loop.vv"), shipped("tetrapod.obj"), 2);
     let found = faces(&control, &Stop::new()).unwrap();
-    std::fs::write(&path, write(&control, &found, Format::Obj).unwrap()).unwrap();
+    std::fs::write(&path, write(&control, &found, Format::Obj).unwrap().0).unwrap();
     let (waker, awake) = mpsc::channel();
     let mut worker = Worker::start(evaluation::machine_limits(), 2 << 30, move || _ = waker.send(())).unwrap();
     let headless = Headless::new(4).ok();

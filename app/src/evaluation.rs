@@ -9,10 +9,13 @@ use std::time::{Duration, Instant};
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use vv::diagnostic::Diagnostic;
 use vv::engine::{Failure, FailureKind, Limits, Machine, Output, Settings};
-use vv::ir::FunctionId;
+use vv::ir::{FunctionId, Program};
+use vv::mesh::faces::faces;
 use vv::mesh::{Mesh, close};
+use vv::source::FileId;
 use vv::stop::{Stop, Stopped};
 
+use crate::gallery::headline;
 use crate::inspect::lineage::Survivors;
 use crate::trace;
 
@@ -47,7 +50,8 @@ pub fn first(
     }
 }
 
-/// Generation `generation`, made of the one before by `rule`.
+/// Generation `generation`, made of the one before by `rule`. What goes wrong with a program for triangle meshes says so
+/// if this was none.
 ///
 /// # Errors
 /// As [`Machine::run`]; `mesh` is as it was.
@@ -59,19 +63,45 @@ pub fn advance(
     settings: &Settings,
     output: &mut dyn Output,
 ) -> Result<Generation, Failure> {
-    let (began, count) = (Instant::now(), mesh.vertex_count());
+    let (began, before) = (Instant::now(), mesh);
     let span = trace::span("step");
-    let mut mesh = machine.run(rule, mesh, generation, settings, output)?;
+    let result = machine.run(rule, before, generation, settings, output);
+    let mut mesh = result.map_err(|mut failure| {
+        if failure.kind == FailureKind::Program {
+            explain(&mut failure.diagnostic, machine.program(), before, &settings.stop);
+        }
+        failure
+    })?;
     drop(span);
     let step_s = began.elapsed().as_secs_f64();
     let began = Instant::now();
     let _span = trace::span("closing");
-    let survivors = Survivors::of(&mesh, count);
-    let warnings = close::close(&mut mesh, &settings.stop).map_err(|stopped| Failure {
+    let survivors = Survivors::of(&mesh, before.vertex_count());
+    let mut warnings = close::close(&mut mesh, &settings.stop).map_err(|stopped| Failure {
         kind: FailureKind::Stopped(stopped),
         diagnostic: Box::new(Diagnostic::new(vv::diagnostic::Severity::Error, None, stopped.to_string())),
     })?;
-    Ok(Generation { mesh, warnings, survivors, step_s, closing_s: began.elapsed().as_secs_f64() })
+    let closing_s = began.elapsed().as_secs_f64();
+    if let Some(warning) = warnings.first_mut() {
+        explain(warning, machine.program(), before, &settings.stop);
+    }
+    Ok(Generation { mesh, warnings, survivors, step_s, closing_s })
+}
+
+/// Adds to what went wrong with a mesh that the program is for triangle meshes, by its first comment, and that it is none.
+fn explain(diagnostic: &mut Diagnostic, program: &Program, mesh: &Mesh, stop: &Stop) {
+    let text = program.sources.file(FileId::MAIN).map_or("", |file| &file.text);
+    if !headline(text).to_lowercase().contains("triangle mesh") {
+        return;
+    }
+    let Ok(faces) = faces(mesh, stop) else { return };
+    let others = faces.iter().filter(|face| face.len() != 3).count();
+    if others > 0 {
+        let (all, are) = (faces.len(), if others == 1 { "is" } else { "are" });
+        let fault = std::mem::take(&mut diagnostic.message);
+        diagnostic.message =
+            format!("the program is for triangle meshes, and {others} of the {all} faces {are} none: {fault}");
+    }
 }
 
 /// The default budgets on this machine: memory is at most three quarters of what the machine, or the control group

@@ -429,7 +429,7 @@ mod tests {
             vv::io::read(b"OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2", Format::Off, &ReadOptions::default()).unwrap();
         let faces = vv::mesh::faces::faces(&mesh, &Stop::new()).unwrap();
         for format in Format::ALL {
-            fs::write(&path, vv::io::write(&mesh, &faces, format).unwrap()).unwrap();
+            fs::write(&path, vv::io::write(&mesh, &faces, format).unwrap().0).unwrap();
             let (again, _) = read_mesh(&path, &ReadOptions::default()).unwrap();
             assert_eq!(again.positions(), mesh.positions(), "{format:?}");
         }

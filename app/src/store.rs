@@ -143,8 +143,8 @@ impl Store {
         fs::create_dir_all(&recovery_folder)?;
         let stamp = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
         let lock_path = recovery_folder.join(format!("{}-{}.lock", std::process::id(), stamp.as_nanos()));
-        let lock = File::create(&lock_path)?;
-        lock.lock()?;
+        let lock = locked(&lock_path)?;
+        remove_idle_locks(&recovery_folder);
         let (jobs, received) = mpsc::channel();
         let trouble = Arc::new(Mutex::new(None));
         let writer = Writer {
@@ -242,6 +242,29 @@ impl Drop for Store {
     }
 }
 
+/// A file that is there and locked: one that is not locked yet another window may take for left behind.
+fn locked(path: &Path) -> std::io::Result<File> {
+    loop {
+        let file = File::create(path)?;
+        file.lock()?;
+        if path.exists() {
+            return Ok(file);
+        }
+    }
+}
+
+/// Takes away the locks of windows that crashed without unsaved work.
+fn remove_idle_locks(folder: &Path) {
+    let files = fs::read_dir(folder).into_iter().flatten().filter_map(|file| Some(file.ok()?.path()));
+    for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "lock")) {
+        let Ok(file) = File::open(&path) else { continue };
+        // Held while it is taken away, so that a window that has just made it notices.
+        if file.try_lock().is_ok() && !path.with_extension("json").exists() {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
 struct Writer {
     settings: PathBuf,
     last: PathBuf,
@@ -285,6 +308,8 @@ impl Writer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
+
     use crate::camera::Camera;
     use crate::document::{Document, MeshSource, ProgramText};
     use crate::scene::{Sphere, Style};
@@ -370,6 +395,19 @@ mod tests {
         drop(store);
         assert!(Store::open(folder.path()).unwrap().orphan().is_none());
         assert_eq!(fs::read_dir(folder.path().join("recovery")).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn the_lock_of_a_window_that_crashed_without_unsaved_work_is_taken_away() {
+        let folder = tempfile::tempdir().unwrap();
+        let alive = Store::open(folder.path()).unwrap();
+        let crashed = |name: &str| fs::write(folder.path().join("recovery").join(name), "").unwrap();
+        ["1-1.lock", "2-2.lock", "2-2.json"].into_iter().for_each(crashed);
+        let next = Store::open(folder.path()).unwrap();
+        let files = fs::read_dir(folder.path().join("recovery")).unwrap().map(|file| file.unwrap().path());
+        let mut expected = vec![alive.lock_path.clone(), next.lock_path.clone()];
+        expected.extend(["2-2.lock", "2-2.json"].map(|name| folder.path().join("recovery").join(name)));
+        assert_eq!(files.collect::<BTreeSet<_>>(), expected.into_iter().collect());
     }
 
     #[test]

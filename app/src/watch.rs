@@ -103,6 +103,8 @@ struct Post {
 struct Seen {
     /// If it is the same and nobody tells of an event, the content is not read.
     stamp: Stamp,
+    /// Whether it could not be read then.
+    unread: bool,
     content: Option<u64>,
     /// How many looks it has been missing for.
     missing: u32,
@@ -189,12 +191,13 @@ impl Seen {
                 return true;
             }
         }
-        if !told && stamp == self.stamp {
+        if !told && stamp == self.stamp && !self.unread {
             return false;
         }
         self.stamp = stamp;
-        let Some(content) = fingerprint(path) else { return false };
-        self.content.replace(content) != Some(content)
+        let content = fingerprint(path);
+        self.unread = stamp.is_some() && content.is_none();
+        content.is_some_and(|content| self.content.replace(content) != Some(content))
     }
 }
 
@@ -217,11 +220,36 @@ fn fingerprint(path: &Path) -> Option<u64> {
             Ok(())
         }
     }
-    let mut file = std::fs::File::open(path).ok()?;
-    if !file.metadata().ok()?.is_file() {
+    // A pipe would keep us waiting for somebody who opens its other end.
+    if !std::fs::metadata(path).ok()?.is_file() {
         return None;
     }
+    let mut file = std::fs::File::open(path).ok()?;
     let mut sink = Sink(DefaultHasher::new());
     std::io::copy(&mut file, &mut sink).ok()?.hash(&mut sink.0);
     Some(sink.0.finish())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As a file of another user that is opened to all: neither its time nor its length changes.
+    #[test]
+    fn what_could_not_be_read_is_read_as_soon_as_it_can_be() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        // A folder cannot be read; a file takes its place that bears the same stamp.
+        std::fs::create_dir(&path).unwrap();
+        let Some((time, length)) = stamp(&path) else { panic!("it is there") };
+        let mut seen = Seen::default();
+        assert!(!seen.look(&path, true));
+        std::fs::remove_dir(&path).unwrap();
+        let file = std::fs::File::create(&path).unwrap();
+        file.set_len(length).unwrap();
+        file.set_modified(time).unwrap();
+        assert_eq!(stamp(&path), Some((time, length)));
+        assert!(seen.look(&path, false), "it has a content now");
+        assert!(!seen.look(&path, false), "and no other");
+    }
 }

@@ -480,6 +480,16 @@ mod tests {
     }
 
     #[test]
+    fn generations_that_are_not_kept_any_more_are_known() {
+        let mut worker = worker(0);
+        finish(&mut worker, request("void f(mesh& S) { }", 3)).unwrap();
+        let kept = |worker: &Worker| worker.reached().values().map(|r| r.kept).collect::<Vec<_>>();
+        assert_eq!(kept(&worker), [true, false, false, true]);
+        finish(&mut worker, request("void f(mesh& S) { }", 1)).unwrap();
+        assert_eq!(kept(&worker), [true, true, false, false]);
+    }
+
+    #[test]
     fn a_failed_step_leaves_the_generations_before_it() {
         let mut worker = worker(1 << 30);
         let text = "mesh { int n = 3; };\nvoid f(mesh& S) { S$n -= 1; print(1 / S$n); }";

@@ -82,7 +82,7 @@ fn measure<T>(bencher: Bencher, name: &str, work: impl Fn(&Sample) -> T) {
 
 fn reading(bencher: Bencher, name: &str, format: Format) {
     let sample = sample(name);
-    let text = write(&sample.mesh, &sample.faces, format).unwrap();
+    let text = write(&sample.mesh, &sample.faces, format).unwrap().0;
     bencher
         .counter(ItemsCount::new(sample.faces.len()))
         .bench_local(|| read(black_box(&text), format, &ReadOptions::default()).unwrap());

@@ -50,5 +50,5 @@ pub fn subdivide(program: &str, mesh: &str, steps: u64, out: &mut dyn Write) -> 
         }
     }
     let faces = faces(&mesh, &Stop::new())?;
-    Ok(out.write_all(&vv::io::write(&mesh, &faces, Format::Obj)?)?)
+    Ok(out.write_all(&vv::io::write(&mesh, &faces, Format::Obj)?.0)?)
 }

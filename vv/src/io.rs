@@ -15,6 +15,7 @@
 mod color;
 mod gltf;
 mod lines;
+mod losses;
 mod obj;
 mod off;
 mod ply;
@@ -277,20 +278,24 @@ pub fn read(bytes: &[u8], format: Format, options: &ReadOptions) -> Result<(Mesh
 /// Wires, edges with a hole on either side, are written to OBJ alone. A face of two corners, the edge that is a component
 /// by itself, is left out.
 ///
+/// The diagnostics are warnings of the properties and wires that are left out, one for each kind; they have no spans. A
+/// property that has nothing but its default is none of them.
+///
 /// # Errors
 /// If the format cannot hold so much.
-pub fn write(mesh: &Mesh, faces: &Faces, format: Format) -> Result<Vec<u8>, TooLarge> {
-    match format {
-        Format::Obj => Ok(obj::write(mesh, faces)),
-        Format::Off => Ok(off::write(mesh, faces)),
-        Format::Ply => Ok(ply::write(mesh, faces, ply::Encoding::LittleEndian)),
-        Format::PlyText => Ok(ply::write(mesh, faces, ply::Encoding::Text)),
-        Format::PlyBigEndian => Ok(ply::write(mesh, faces, ply::Encoding::BigEndian)),
-        Format::Stl => stl::write(mesh, faces).ok_or(TooLarge("stl")),
-        Format::StlText => Ok(stl::write_text(mesh, faces)),
-        Format::Glb => gltf::write_glb(mesh, faces).ok_or(TooLarge("glb")),
-        Format::Gltf => Ok(gltf::write_text(mesh, faces)),
-    }
+pub fn write(mesh: &Mesh, faces: &Faces, format: Format) -> Result<(Vec<u8>, Vec<Diagnostic>), TooLarge> {
+    let bytes = match format {
+        Format::Obj => obj::write(mesh, faces),
+        Format::Off => off::write(mesh, faces),
+        Format::Ply => ply::write(mesh, faces, ply::Encoding::LittleEndian),
+        Format::PlyText => ply::write(mesh, faces, ply::Encoding::Text),
+        Format::PlyBigEndian => ply::write(mesh, faces, ply::Encoding::BigEndian),
+        Format::Stl => stl::write(mesh, faces).ok_or(TooLarge("stl"))?,
+        Format::StlText => stl::write_text(mesh, faces),
+        Format::Glb => gltf::write_glb(mesh, faces).ok_or(TooLarge("glb"))?,
+        Format::Gltf => gltf::write_text(mesh, faces),
+    };
+    Ok((bytes, losses::losses(mesh, format)))
 }
 
 /// Faces that are polygons: with three corners and more.

@@ -44,8 +44,7 @@ pub struct Masks {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// Moving the mesh would not move it along.
-    // (With zero added, for -0 is 0 to a reader.)
-    #[error("the weights of {vertex} sum to {}, not to 1", .sum + 0.0)]
+    #[error("the weights of {vertex} sum to {}, not to 1", shown(*.sum))]
     Sum {
         /// The new vertex.
         vertex: Vertex,
@@ -185,6 +184,17 @@ pub fn fraction(x: f64) -> Option<String> {
     }
 }
 
+/// A weight as people write it: as a [`fraction`] if it is one, else to the twelve decimals that a measurement is good
+/// for, without zeros at their end.
+#[must_use]
+pub fn shown(weight: f64) -> String {
+    let weight = weight + 0.0; // -0 is 0 to a reader
+    fraction(weight).unwrap_or_else(|| {
+        let decimals = format!("{weight:.12}");
+        if decimals.contains('.') { decimals.trim_end_matches('0').trim_end_matches('.').to_owned() } else { decimals }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,6 +216,24 @@ mod tests {
         ];
         for (x, expected) in cases {
             assert_eq!(fraction(x).as_deref(), expected, "{x}");
+        }
+    }
+
+    #[test]
+    fn weights_are_shown_to_what_was_measured() {
+        let cases = [
+            (0.749_999_999_999_999_9, "3/4"),
+            (0.1 + 0.2, "3/10"),
+            (-0.0, "0"),
+            (std::f64::consts::FRAC_1_SQRT_2, "0.707106781187"),
+            (1.0 + 1e-10, "1.0000000001"),
+            (12_345.5, "12345.5"),
+            (1e20, "100000000000000000000"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+        ];
+        for (x, expected) in cases {
+            assert_eq!(shown(x), expected);
         }
     }
 }

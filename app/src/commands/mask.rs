@@ -13,7 +13,7 @@ use serde::Serialize;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
 use vv::ir::FunctionId;
-use vv::masks::{Around, Class, Masks, Star, TOLERANCE, fraction, judge, measure};
+use vv::masks::{Around, Class, Masks, Star, TOLERANCE, fraction, judge, measure, shown};
 use vv::mesh::faces::faces;
 use vv::mesh::{Mesh, Vertex};
 use vv::source::Sources;
@@ -381,7 +381,6 @@ impl Table {
 
 impl Weight {
     fn text(&self) -> String {
-        let number = self.fraction.clone().unwrap_or_else(|| format!("{:.12}", self.weight));
-        format!("{}: {number}", self.of.join(" "))
+        format!("{}: {}", self.of.join(" "), shown(self.weight))
     }
 }

@@ -282,7 +282,10 @@ pub fn prepare(
         let began = Instant::now();
         let bytes = match (kind, &outputs.picture) {
             (Kind::Mesh(format), _) => match vv::io::write(result.mesh, result.faces, format) {
-                Ok(bytes) => bytes,
+                Ok((bytes, losses)) => {
+                    losses.into_iter().for_each(|loss| reporter.report_once(loss));
+                    bytes
+                }
                 Err(problem) => return fail(reporter, Exit::File, error(problem.to_string())),
             },
             (Kind::Figure(format), _) => {

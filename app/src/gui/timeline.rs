@@ -77,12 +77,11 @@ fn menu(ui: &mut Ui, session: &Session, generation: u64, commands: &mut Vec<Comm
             with(Command::Choose(Purpose::ExportMesh)),
         ),
     ];
-    let reached = session.reached();
     for (i, (label, tooltip, command)) in entries.into_iter().enumerate() {
         if i == 3 {
             ui.separator();
         }
-        let kept = generation == 0 || reached.get(&generation).is_some_and(|r| r.kept);
+        let kept = generation == 0 || session.reached(generation).is_some_and(|r| r.kept);
         let enabled = session.frame().is_some() && (i != 1 || kept) && (i != 2 || generation > 0);
         if menu_entry(ui, enabled, &label, tooltip) {
             commands.push(command);
@@ -105,10 +104,9 @@ fn speed(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
 }
 
 fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
-    let reached = session.reached();
     let wanted = session.document.generation;
     let failed = session.halted();
-    let last = reached.last_key_value().map_or(0, |(g, _)| *g).max(wanted).max(1);
+    let last = session.last_reached().max(wanted).max(1);
     let last = last.max(failed.map_or(0, |failed| failed.generation));
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 28.0), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::slider(true, wanted as f64, "Time line"));
@@ -147,7 +145,7 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         for generation in 0..=last {
             let center = pos2(at(generation), y);
             let color = if generation <= wanted { accent } else { weak };
-            match reached.get(&generation) {
+            match session.reached(generation) {
                 Some(r) if r.kept => drop(painter.circle_filled(center, 3.5, color)),
                 Some(_) => drop(painter.circle(center, 3.5, visuals.panel_fill, Stroke::new(1.5, color))),
                 None => drop(painter.circle_filled(center, 2.0, quiet)),
@@ -202,7 +200,7 @@ fn track(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     }
     if let Some(generation) = hovered {
         painter.circle_stroke(pos2(at(generation), y), 6.5, Stroke::new(1.0, visuals.text_color()));
-        let text = match reached.get(&generation) {
+        let text = match session.reached(generation) {
             Some(r) => {
                 let kept = if r.kept { "" } else { ", computed again" };
                 let time = if generation == 0 { String::new() } else { format!(", {}", seconds(r.step)) };

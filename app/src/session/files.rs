@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
 
-use vv::diagnostic::Severity;
+use vv::diagnostic::{Diagnostic, Severity};
 use vv::io::Format;
 
 use super::{Dialog, PathTrouble, Purpose, Session};
@@ -23,9 +23,23 @@ const NO_DIALOG: Duration = Duration::from_millis(1000);
 /// Something that is done on another thread.
 pub(super) struct Work {
     /// What it has to say at its end.
-    result: Receiver<Result<String, String>>,
+    result: Receiver<Result<Done, String>>,
     /// The path that was typed for it, to be asked for again if it fails.
     typed: Option<(Purpose, String)>,
+}
+
+/// Work that has come to a good end.
+pub(super) struct Done {
+    /// What to say of it.
+    said: String,
+    /// What was lost on the way.
+    losses: Vec<Diagnostic>,
+}
+
+impl From<String> for Done {
+    fn from(said: String) -> Self {
+        Self { said, losses: Vec::new() }
+    }
 }
 
 /// A file dialog that is open.
@@ -290,20 +304,22 @@ impl Session {
         files::check_writable(path).map_err(|error| error.diagnostic.message.clone())?;
         let path = path.to_owned();
         self.in_background(move || {
-            let bytes = vv::io::write(&frame.mesh, &frame.faces, format).map_err(|problem| problem.to_string())?;
+            let written = vv::io::write(&frame.mesh, &frame.faces, format);
+            let (bytes, losses) = written.map_err(|problem| problem.to_string())?;
             match files::write(&path, &bytes) {
-                Ok(()) => Ok(format!("saved {}", typed_path::shown(&path))),
+                Ok(()) if losses.is_empty() => Ok(format!("saved {}", typed_path::shown(&path)).into()),
+                Ok(()) => Ok(Done { said: format!("saved {}, but not all of it", typed_path::shown(&path)), losses }),
                 Err(error) => Err(format!("{}: {}", path.display(), error.diagnostic.message)),
             }
         });
         Ok(())
     }
 
-    pub(super) fn in_background(&mut self, work: impl FnOnce() -> Result<String, String> + Send + 'static) {
+    pub(super) fn in_background<D: Into<Done>>(&mut self, work: impl FnOnce() -> Result<D, String> + Send + 'static) {
         let (sender, receiver) = mpsc::channel();
         let wake = Arc::clone(&self.wake);
         std::thread::spawn(move || {
-            let _ = sender.send(work());
+            let _ = sender.send(work().map(Into::into));
             wake();
         });
         self.background.push(Work { result: receiver, typed: self.typed.clone() });
@@ -321,7 +337,10 @@ impl Session {
         });
         for (result, typed) in said {
             match (result, typed) {
-                (Ok(text), _) => self.say(Severity::Note, text),
+                (Ok(Done { said, losses }), _) => {
+                    self.say(if losses.is_empty() { Severity::Note } else { Severity::Warning }, said);
+                    self.problems.written(&losses);
+                }
                 (Err(why), Some((purpose, path))) if self.dialog.is_none() => {
                     self.notice = None; // that it is being written
                     let trouble = Some((path.clone(), PathTrouble::Failed(why)));

@@ -58,18 +58,19 @@ pub struct Place {
     pub range: Range<usize>,
 }
 
-/// What compiling, reading the mesh and running found.
+/// What compiling, reading the mesh, running and writing it found.
 #[derive(Debug, Clone, Default)]
 pub struct Problems {
     compiled: Vec<Problem>,
     mesh: Vec<Problem>,
     ran: Vec<Problem>,
+    written: Vec<Problem>,
 }
 
 impl Problems {
-    /// All of them: of the text, of the mesh, of the run.
+    /// All of them: of the text, of the mesh, of the run, of what was written of it.
     pub fn iter(&self) -> impl Iterator<Item = &Problem> {
-        self.compiled.iter().chain(&self.mesh).chain(&self.ran)
+        self.compiled.iter().chain(&self.mesh).chain(&self.ran).chain(&self.written)
     }
 
     /// How many there are of a severity.
@@ -87,6 +88,7 @@ impl Problems {
     pub(super) fn compiled(&mut self, compilation: &Compilation) {
         self.compiled = located(&compilation.diagnostics, &compilation.sources, None);
         self.ran.clear();
+        self.written.clear();
     }
 
     pub(super) fn mesh_read(&mut self, name: &str, diagnostics: Vec<Diagnostic>) {
@@ -98,6 +100,11 @@ impl Problems {
 
     pub(super) fn ran(&mut self, diagnostics: &[Diagnostic], sources: &Arc<Sources>, generation: u64) {
         self.ran = located(diagnostics, sources, Some(generation));
+    }
+
+    /// Until something is computed or saved anew.
+    pub(super) fn written(&mut self, diagnostics: &[Diagnostic]) {
+        self.written = located(diagnostics, &Sources::default(), None);
     }
 }
 

@@ -1,6 +1,5 @@
 //! What panels read of a session.
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, MutexGuard};
 
 use vv::diagnostic::Severity;
@@ -60,10 +59,10 @@ impl Session {
         }
     }
 
-    /// The generations that were reached, with what is known of them.
+    /// What is known of a generation that was reached.
     #[must_use]
-    pub fn reached(&self) -> BTreeMap<u64, Reached> {
-        self.worker.reached().clone()
+    pub fn reached(&self, generation: u64) -> Option<Reached> {
+        self.worker.reached().get(&generation).copied()
     }
 
     /// The last of them.

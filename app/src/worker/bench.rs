@@ -236,21 +236,9 @@ impl Bench {
             }
         };
         let result = self.advance_to(ticket, request, machine, input, stop, &mut history);
-        self.tell_reached(&history);
         // A step that failed leaves the generations before it as they were.
         self.history = Some(history);
         result
-    }
-
-    fn tell_reached(&self, history: &History) {
-        let mut reached = lock(&self.shared.reached);
-        for (&generation, kept) in &history.generations {
-            let Generation { mesh, step_s, .. } = &kept.generation;
-            reached.insert(generation, Reached { vertices: mesh.set.len(), step: *step_s, kept: true });
-        }
-        for (generation, reached) in reached.iter_mut() {
-            reached.kept = history.generations.contains_key(generation);
-        }
     }
 
     fn advance_to(
@@ -302,9 +290,11 @@ impl Bench {
                 }
             };
             printer.flush();
-            history.insert(generation, result.map_err(failed)?);
+            let made = result.map_err(failed)?;
+            let reached = Reached { vertices: made.mesh.set.len(), step: made.step_s, kept: true };
+            history.insert(generation, made);
+            lock(&self.shared.reached).insert(generation, reached);
             self.evict(history, generation);
-            self.tell_reached(history);
         }
         let stopped = |s| Failed::said_before(FailureKind::Stopped(s), request.generation);
         let rule = rule.filter(|_| request.generation > 0);
@@ -321,7 +311,13 @@ impl Bench {
             Quantity::Since(generation) => Some(generation),
             _ => None,
         };
-        history.evict(self.shared.memory.load(Ordering::Relaxed), current, compared);
+        let gone = history.evict(self.shared.memory.load(Ordering::Relaxed), current, compared);
+        let mut reached = lock(&self.shared.reached);
+        for generation in gone {
+            if let Some(reached) = reached.get_mut(&generation) {
+                reached.kept = false;
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The generations of a recipe that are kept, and their pictures.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
@@ -21,6 +21,10 @@ pub(super) struct History {
     pub recipe: Arc<Recipe>,
     pub generations: BTreeMap<u64, Kept>,
     pub lineage: Lineage,
+    /// Those of them that have a picture.
+    drawn: BTreeSet<u64>,
+    /// What all of them take.
+    bytes: usize,
     control: Option<Faces>,
 }
 
@@ -40,14 +44,18 @@ impl Kept {
 
 impl History {
     pub fn new(recipe: Arc<Recipe>) -> Self {
-        Self { recipe, generations: BTreeMap::new(), lineage: Lineage::default(), control: None }
+        let (generations, drawn) = (BTreeMap::new(), BTreeSet::new());
+        Self { recipe, generations, lineage: Lineage::default(), drawn, bytes: 0, control: None }
     }
 
     /// Keeps a generation.
     pub fn insert(&mut self, number: u64, generation: Generation) {
         self.lineage.add(number, &generation.survivors);
         self.lineage.keep(number, generation.mesh.clone());
-        self.generations.insert(number, Kept { generation, frame: None });
+        let kept = Kept { generation, frame: None };
+        self.bytes += kept.bytes();
+        self.drawn.remove(&number);
+        self.bytes -= self.generations.insert(number, kept).map_or(0, |before| before.bytes());
     }
 
     /// The picture of a generation that is kept.
@@ -75,35 +83,49 @@ impl History {
             made: made.map(Arc::new),
             ..frame(request, &kept.generation, control, stop)?
         });
+        self.bytes -= kept.bytes();
         kept.frame = Some(Arc::clone(&frame));
+        self.bytes += kept.bytes();
+        self.drawn.insert(request.generation);
         Ok(frame)
     }
 
     /// Forgets pictures first, then meshes, those farthest from `current` first, until `memory` bytes suffice.
-    /// Generation 0, `current` and the one that is compared with stay.
-    pub fn evict(&mut self, memory: usize, current: u64, compared: Option<u64>) {
-        let mut total: usize = self.generations.values().map(Kept::bytes).sum();
-        let mut order: Vec<u64> = self.generations.keys().copied().filter(|&g| g != 0 && g != current).collect();
-        order.retain(|g| Some(*g) != compared);
-        order.sort_by_key(|g| std::cmp::Reverse(g.abs_diff(current)));
-        for g in &order {
-            if total <= memory {
-                return;
-            }
-            if let Some(kept) = self.generations.get_mut(g) {
-                total -= kept.bytes();
+    /// Generation 0, `current` and the one that is compared with stay. Returns the generations that are not kept any
+    /// more. Cost: constant, but for those that lose something.
+    pub fn evict(&mut self, memory: usize, current: u64, compared: Option<u64>) -> Vec<u64> {
+        let stays = |g: u64| g == 0 || g == current || Some(g) == compared;
+        while self.bytes > memory
+            && let Some(g) = farthest(self.drawn.iter(), current, stays)
+        {
+            self.drawn.remove(&g);
+            if let Some(kept) = self.generations.get_mut(&g) {
+                self.bytes -= kept.bytes();
                 kept.frame = None;
-                total += kept.bytes();
+                self.bytes += kept.bytes();
             }
         }
-        for g in &order {
-            if total <= memory {
-                return;
-            }
-            total -= self.generations.remove(g).map_or(0, |kept| kept.bytes());
-            self.lineage.forget(*g);
+        let mut gone = Vec::new();
+        while self.bytes > memory
+            && let Some(g) = farthest(self.generations.keys(), current, stays)
+        {
+            self.bytes -= self.generations.remove(&g).map_or(0, |kept| kept.bytes());
+            self.lineage.forget(g);
+            gone.push(g);
         }
+        gone
     }
+}
+
+/// Which of these numbers, in order, is the farthest from `current`, but for those that stay, which are few.
+fn farthest<'a>(
+    mut numbers: impl DoubleEndedIterator<Item = &'a u64>,
+    current: u64,
+    stays: impl Fn(u64) -> bool,
+) -> Option<u64> {
+    let first = *numbers.find(|&&g| !stays(g))?;
+    let last = numbers.rfind(|&&g| !stays(g)).map_or(first, |&g| g);
+    Some(if first.abs_diff(current) >= last.abs_diff(current) { first } else { last })
 }
 
 /// Faces, counts and scene of a generation.
@@ -179,29 +201,33 @@ mod tests {
             }
             let made = Generation { mesh, ..Generation::default() };
             let request = Request { recipe: Arc::clone(&recipe), generation };
-            let picture = frame(&request, &made, None, &Stop::new()).unwrap();
-            history.generations.insert(generation, Kept { generation: made, frame: Some(Arc::new(picture)) });
+            history.insert(generation, made);
+            history.frame(&request, None, &Stop::new()).unwrap();
         }
         history
     }
 
-    /// What is left with room for so many meshes, of which a picture takes two: `(3)` has lost its picture.
+    /// What is left with room for so many meshes, of which a picture takes two and has that of the generation before:
+    /// `(3)` has lost its picture.
     #[track_caller]
     fn check(meshes: usize, current: u64, compared: Option<u64>, expected: &str) {
         let mut history = history();
         let size = history.generations[&0].generation.mesh.bytes();
-        history.evict(meshes * size, current, compared);
+        let gone = history.evict(meshes * size, current, compared);
+        assert!(gone.iter().all(|g| (0..6).contains(g) && !history.generations.contains_key(g)), "{gone:?}");
+        assert_eq!(gone.len() + history.generations.len(), 6);
+        assert_eq!(history.bytes, history.generations.values().map(Kept::bytes).sum::<usize>());
         let show = |(g, kept): (&u64, &Kept)| if kept.frame.is_some() { g.to_string() } else { format!("({g})") };
         assert_eq!(history.generations.iter().map(show).collect::<Vec<_>>().join(" "), expected);
     }
 
     #[test]
     fn pictures_go_before_meshes_and_the_farthest_first_but_never_the_first_and_the_current() {
-        check(18, 2, None, "0 1 2 3 4 5");
-        check(14, 2, None, "0 1 2 3 (4) (5)");
-        check(7, 2, None, "0 2 (3)");
+        check(23, 2, None, "0 1 2 3 4 5");
+        check(17, 2, None, "0 1 2 3 (4) (5)");
+        check(8, 2, None, "0 2 (3)");
         check(0, 2, None, "0 2");
-        check(13, 5, None, "0 (1) (2) (3) 4 5");
+        check(14, 5, None, "0 (1) (2) (3) 4 5");
         check(0, 2, Some(4), "0 2 4");
     }
 }

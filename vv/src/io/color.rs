@@ -37,7 +37,12 @@ pub(super) fn property(colors: Vec<DVec3>) -> Property {
 
 /// Which vertex property holds colours, if there is one.
 pub(super) fn column(mesh: &Mesh) -> Option<usize> {
-    mesh.vertex_properties().iter().position(|p| p.name == COLOR && p.values.ty() == Type::Vec)
+    mesh.vertex_properties().iter().position(|p| is_color(&p.name, p.values.ty()))
+}
+
+/// Whether a vertex property of this name and type holds colours.
+pub(super) fn is_color(name: &str, ty: Type) -> bool {
+    name == COLOR && ty == Type::Vec
 }
 
 /// The colour of a vertex, each channel from 0 to 1.

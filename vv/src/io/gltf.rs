@@ -12,7 +12,7 @@ mod read;
 mod write;
 
 pub(super) use read::read;
-pub(super) use write::{write_glb, write_text};
+pub(super) use write::{holds, write_glb, write_text};
 
 const MAGIC: &[u8] = b"glTF";
 const VERSION: u32 = 2;

@@ -17,16 +17,18 @@ use glam::DVec3;
 
 use super::color::{self, Colors};
 use super::lines::{COMMENT, Lines, column, number, show, words};
+use super::losses::Of;
 use super::{
     Place, ReadError, invalid, is_polygon, note, numbering, polygons, push_integer, push_lines, push_number, warning,
 };
 use crate::diagnostic::Diagnostic;
 use crate::mesh::build::Polygons;
 use crate::mesh::faces::Faces;
-use crate::mesh::{Full, Mesh};
+use crate::mesh::{Full, Mesh, Type};
 use crate::stop::Stop;
 use tags::Tags;
 
+pub(super) use polylines::count as wires;
 pub use tags::SHARPNESS;
 
 /// Statements that say how things look or what they are called.
@@ -443,6 +445,15 @@ fn not_finite(text: &[u8], index: usize) -> ReadError {
     match statement.arguments().find_map(|word| Some((word, number(word).err()?))) {
         Some((word, why)) => invalid(statement.place(word), why),
         None => invalid(Place::line(statement.line), "the coordinates divided by the weight are too large"),
+    }
+}
+
+/// Whether a property of this name and type is written.
+pub(super) fn holds(of: Of, name: &str, ty: Type) -> bool {
+    match of {
+        Of::Vertices => color::is_color(name, ty) || tags::is_sharpness(name, ty),
+        Of::Edges => tags::is_sharpness(name, ty),
+        Of::Whole => false,
     }
 }
 

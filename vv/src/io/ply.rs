@@ -17,7 +17,7 @@ mod read;
 mod write;
 
 pub(super) use read::read;
-pub(super) use write::write;
+pub(super) use write::{kept, write};
 
 /// How values follow each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,6 +9,9 @@ use crate::mesh::{face_list, ring_list};
 
 mod binary;
 mod gltf;
+mod losses;
+mod obj;
+mod off;
 mod ply;
 mod robust;
 mod stl;
@@ -272,106 +275,6 @@ fn strict_reading_refuses_what_would_be_repaired() {
     assert!(strict("1 2 3 / 1 3 2").starts_with("1 2 3 / 1 3 2\nWarning: two faces lie back to back"));
 }
 
-/// Three vertices to begin an OBJ with.
-const THREE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-
-/// A file of [`THREE`] and `rest`.
-#[track_caller]
-fn check_three(rest: &str, expected: &str) {
-    check_obj(&format!("{THREE}{rest}"), expected);
-}
-
-#[test]
-fn obj_lines_may_end_and_go_on_in_any_way() {
-    check_three("f 1 2 3\n", "1 2 3");
-    check_three("f 1 2 3", "1 2 3");
-    check_obj(&format!("{THREE}f 1 2 3\n").replace('\n', "\r\n"), "1 2 3");
-    check_obj(&format!("{THREE}f 1 2 3\n").replace('\n', "\r"), "1 2 3");
-    check_obj(&format!("\u{feff}{THREE}f 1 2 3\n"), "1 2 3");
-    check_obj("v 0 \\\n0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n3\n", "1 2 3");
-    check_obj("v 0 \\\r\n0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 \\\r\n3\r\n", "1 2 3");
-    check_three("f 1 2 3 \\", "1 2 3");
-    check_obj("# c\nv\t0 0 0 # a\n  v 1 0 0 # 1 2\n\nv +.1 1. 1e-3\nf  1\t2 3 # x\n", "1 2 3");
-}
-
-#[test]
-fn obj_corners_have_all_forms() {
-    check_three("f 1// 2/1/ 3/1/1\n", "1 2 3");
-    check_three("f 1/1/ 2/9/9 3//-7\n", "1 2 3");
-    check_three("f -3 -2 -1\nv 1 1 0\nf -3 -1 -2\n", "1 2 3 / 2 4 3");
-    check_obj(&format!("f 1 2 3\n{THREE}"), "1 2 3");
-    check_three("v 0 0 1\nf 4 3 2\nf 1 2 3\n", "1 2 3 / 2 4 3");
-}
-
-#[test]
-fn obj_groups_do_not_part_a_mesh() {
-    check_obj(
-        "mtllib a b.mtl\no a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\ng x\nusemtl m\nf 1 2 3\no b\nv 0 0 1\nusemtl k\ns off\n\
-         f 1 3 4\n",
-        "1 2 3 / 1 3 4\n\
-         Note: normals, texture coordinates, groups, materials and tags but creases and corners are not read",
-    );
-}
-
-#[test]
-fn obj_colours_and_weights() {
-    let colors = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0.5 0.5 0.25 1\nf 1 2 3\n";
-    check_values(colors.as_bytes(), Format::Obj, "color: (1 0 0) (1 1 1) (0.5 0.5 0.25)");
-    let bytes = "v 0 0 0 255 0 0\nv 1 0 0\nv 0 1 0 51 102 0\nf 1 2 3\n";
-    check_values(bytes.as_bytes(), Format::Obj, "color: (1 0 0) (1 1 1) (0.2 0.4 0)");
-    check_obj("v 0 0 0 1 0 x\n", "error line 1: `x` is not a number");
-    let (mesh, _) = read(b"v 2 4 6 2\nv 1 0 0\nv 0 1 0\nf 1 2 3", Format::Obj, &ReadOptions::default()).unwrap();
-    assert_eq!(mesh.positions()[0].to_array(), [1.0, 2.0, 3.0]);
-    check_obj("v 0 0 0 0\n", "error line 1: the weight of the vertex is 0");
-    check_obj(
-        "v 0 0 0 1 1\n",
-        "error line 1: the vertex has 5 numbers; it takes three, four with a weight, six with a colour",
-    );
-}
-
-#[test]
-fn obj_statements_that_are_not_read_are_named() {
-    check_three(
-        "p 1\np 2\nf 1 2 3\n",
-        "1 2 3\nWarning: `p` (points) on line 4 and 1 more like it ignored: points are not read",
-    );
-    check_three(
-        "foo 1 2\nbar\nf 1 2 3\n",
-        "1 2 3\nWarning: `foo` on line 4 and 1 more like it ignored: this is no statement of an OBJ file",
-    );
-    check_three(
-        "cstype bspline\ndeg 3\nf 1 2 3\n",
-        "1 2 3\nWarning: a free-form curve or surface on line 4 and 1 more like it ignored: only polygons and lines are read",
-    );
-}
-
-#[test]
-fn obj_errors_name_their_line() {
-    check_obj("v 0 0 0\nv 1 0\n", "error line 2: the vertex has two coordinates, not three");
-    check_obj("v 0 0 0\nv a 0 0\n", "error line 2: `a` is not a number");
-    check_obj("v 0 0 0\nv nan 0 0\nf 1 1 2\n", "error line 2: `nan` is not finite");
-    check_obj("v 0 0 0\nv 0 -inf 0\n", "error line 2: `-inf` is not finite");
-    check_obj("v 0 0 0\nv 1e999 0 0\n", "error line 2: `1e999` is too large for a double");
-    check_obj("v 1e300 0 0 1e-300\n", "error line 1: the coordinates divided by the weight are too large");
-    check_three("v 1.5e", "error line 4: `1.5e` is not a number");
-    check_three("f 1 2 3\nf 1 2", "error line 5: the file ends within a face, after `f 1 2`; it was probably cut off");
-    check_three("f 1 2 4\n", "error line 4: the face has a corner at vertex `4`, but the last vertex is 3");
-    check_three("f 0 1 2\n", "error line 4: the face has a corner at vertex `0`, but vertices are numbered from 1");
-    check_three("f -4 -2 -1\n", "error line 4: the face has a corner at vertex `-4`, but 3 vertices stand before it");
-    check_three("f /1 2 3\n", "error line 4: the face has a corner at vertex `/1`, but it names no vertex");
-    check_three(
-        "f 1 2 9223372036854775807\n",
-        "error line 4: the face has a corner at vertex `9223372036854775807`, but the last vertex is 3",
-    );
-    for word in ["x", "1.0", "1/1/1/1", "99999999999999999999"] {
-        let message = format!("error line 4: `{word}` is no corner of a face, as `7`, `-1` or `7/1/3` would be");
-        check_three(&format!("f 1 2 {word}\n"), &message);
-    }
-    check_obj("f 1 2 3\n", "error line 1: the face has a corner at vertex `1`, but the file has no vertices");
-    check_obj("PK\u{1}\u{2} asd\nasdasd\n", "error: this is no OBJ file: no line begins with `v` or `f`");
-    assert_eq!(outcome(b"v \xff", Format::Obj, false), "error line 1: `\\xff` is not a number");
-}
-
 #[test]
 fn a_file_without_faces_is_an_empty_mesh_a_file_without_words_none() {
     let empty = "\nWarning: the file has no faces, so the mesh is empty";
@@ -380,121 +283,6 @@ fn a_file_without_faces_is_an_empty_mesh_a_file_without_words_none() {
     check_obj(" \n", "error: the file is empty");
     check_off("", "error: the file is empty");
     check_off("# hello\n", "error: the file holds nothing but comments");
-}
-
-/// OFF of one triangle with this header, these ends of the vertex lines and of the face line.
-fn triangle(header: &str, vertex: &str, face: &str) -> String {
-    format!("{header}\n0 0 0{vertex}\n1 0 0{vertex}\n0 1 0{vertex}\n3 0 1 2{face}")
-}
-
-#[test]
-fn off_headers_and_counts_have_many_forms() {
-    for header in ["OFF\n3 1 3", "OFF 3 1 3", "OFF\n3 1", "3 1 3", "# a\n\nOFF # b\n\n3 1 3 # c\n# d\n"] {
-        check_off(&triangle(header, "", ""), "1 2 3");
-        check_off(&triangle(header, " # e\n", " # f\n\n"), "1 2 3");
-    }
-    check_off("OFF 3 1 3 0 0 0 1 0 0 0 1 0 3 0 1 2", "1 2 3");
-    check_off("OFF\n3 1 3\n0 0 0 1 0 0\n0 1 0 3 0\n1 2", "1 2 3");
-    check_off(&triangle("OFF\n3 1 3", "", "").replace('\n', "\r\n"), "1 2 3");
-}
-
-#[test]
-fn off_normals_and_texture_coordinates_are_passed_over() {
-    let note = "1 2 3\nNote: normals, texture coordinates and colours of faces are not read";
-    check_off(&triangle("NOFF\n3 1 3", " 0 0 1", "\n"), note);
-    check_off(&triangle("STCNOFF\n3 1 3", " 0 0 1 1 1 1 1 0 0", "\n"), note);
-    check_off(&triangle("OFF\n3 1 3", "", " 255 0 0\n"), note);
-}
-
-#[test]
-fn off_colours_are_kept() {
-    let check = |text: String, expected: &str| {
-        check_off(&text, "1 2 3");
-        check_values(text.as_bytes(), Format::Off, expected);
-    };
-    let red = "color: (1 0 0) (1 0 0) (1 0 0)";
-    check(triangle("COFF\n3 1 3", " 255 0 0 255", "\n"), red);
-    check(triangle("COFF\n3 1 3", " 255 0 0", "\n"), red);
-    check(triangle("COFF\n3 1 3", " 1 0 0 1", "\n"), red);
-    check(triangle("COFF\n3 1 3", " 1 0 0", "\n"), red);
-    check(triangle("COFF\n3 1 3", " 0 0 0 255", "\n"), "color: (0 0 0) (0 0 0) (0 0 0)");
-    check(
-        "COFF 3 1 3 0 0 0 1 .5 0 1 1 0 0 1 .5 0 1 0 1 0 0 0 0 1 3 0 1 2".to_owned(),
-        "color: (1 0.5 0) (1 0.5 0) (0 0 0)",
-    );
-    let (text, note) = (triangle("STCNOFF\n3 1 3", " 0 0 1 255 51 0 0.5 0.5", "\n"), "1 2 3\nNote: normals, texture");
-    assert!(outcome(text.as_bytes(), Format::Off, false).starts_with(note));
-    check_values(text.as_bytes(), Format::Off, "color: (1 0.2 0) (1 0.2 0) (1 0.2 0)");
-}
-
-#[test]
-fn off_may_be_flat() {
-    let note = "1 2 3\nNote: the vertices have two coordinates; the third is 0";
-    check_off("OFF\n3 1 3\n0 0\n1 0\n0 1\n3 0 1 2\n", note);
-    check_off("OFF\n3 1 3\n# a\n\n0 0 # b\n1 0\n0 1\n3 0 1 2\n", note);
-    check_off("OFF\n3 1 3\n0 0\n1\n0 1\n3 0 1 2\n", "error line 4: vertex 2 has one coordinate, not three");
-    check_off(
-        "OFF\n3 1 3\n0 0\n1 0 0\n0 1\n3 0 1 2\n",
-        "error line 4: vertex 2 has more coordinates than the two of the first",
-    );
-    check_off("OFF\n3 1 3\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "error line 4: vertex 2 has two coordinates, not three");
-}
-
-#[test]
-fn off_that_is_not_read_is_named() {
-    for word in ["4OFF", "nOFF", "4nOFF"] {
-        let message =
-            format!("error line 1: `{word}` has coordinates of other dimension than three; only plain OFF is read");
-        check_off(&format!("{word}\n3 1 3\n"), &message);
-    }
-    check_off("OFF BINARY\n\0\u{3}", "error line 1: binary OFF is not read; save the file as text");
-    check_off("<html>", "error line 1: this is no OFF file: it begins with `<html>`, not with OFF");
-    assert_eq!(
-        outcome(&[0xff, 0xfe, 0, 10, 32], Format::Off, false),
-        "error line 1: this is no OFF file: it begins with `\\xff\\xfe\\x00`, not with OFF"
-    );
-}
-
-#[test]
-fn off_errors_name_their_line() {
-    check_off("OFF\n", "error line 1: the file ends before the number of vertices");
-    check_off("OFF\n3\n", "error line 2: the file ends before the number of faces");
-    check_off("OFF\nx 1 0\n", "error line 2: expected the number of vertices, found `x`");
-    check_off("OFF\n3 -1 0\n", "error line 2: expected the number of faces, found `-1`");
-    check_off(
-        "OFF\n99999999999999999999 1 0\n",
-        "error line 2: expected the number of vertices, found `99999999999999999999`",
-    );
-    check_off("OFF\n3 1 3\n0 0 0\n1 0 0\n", "error line 4: the file ends after 2 of 3 vertices");
-    check_off("OFF\n3 1 3\n0 0 0\n1 0", "error line 4: the file ends after 1 of 3 vertices");
-    check_off("OFF\n2 1 3\n0 0 0\n1 nan 0\n3 0 1 0", "error line 4: vertex 2: `nan` is not finite");
-    check_off(&triangle("OFF\n3 2 3", "", "\n"), "error line 6: the file ends after 1 of 2 faces");
-    check_off(&triangle("OFF\n3 2 3", "", "\n3 0 1\n"), "error line 7: face 2 announces 3 corners, but there are 2");
-    check_off(
-        &triangle("OFF\n3 2 3", "", "\n3 0 1 3\n"),
-        "error line 7: face 2 has a corner at vertex 3, but they go from 0 to 2",
-    );
-    check_off(
-        &triangle("OFF\n3 2 3", "", "\n3 0 1 -1\n"),
-        "error line 7: expected a vertex of the face, numbered from 0, found `-1`",
-    );
-    check_off(
-        &triangle("OFF\n3 1 3", "", "\nfoo\n"),
-        "1 2 3\nWarning: line 7 and what follows is ignored: all announced faces were read",
-    );
-}
-
-#[test]
-fn off_counts_that_lie_cost_nothing() {
-    check_off(&triangle("OFF\n1000000000 1 0", "", ""), "error line 6: the file ends after 4 of 1000000000 vertices");
-    check_off(
-        &triangle("OFF\n3 18446744073709551615 0", "", ""),
-        "error line 6: the file ends after 1 of 18446744073709551615 faces",
-    );
-    check_off(
-        &triangle("OFF\n3 2 0", "", "\n4000000000 0 1 2"),
-        "error line 7: face 2 announces 4000000000 corners, but there are 3",
-    );
 }
 
 /// What each file under `assets/meshes/bad` is there for: its faces, or how the message begins.
@@ -544,7 +332,7 @@ fn bad_fixtures_are_what_they_are_there_for() {
 fn numbers_are_written_as_short_as_they_read_back() {
     let obj = "v 0.1 -0 1e300\nv 1e-7 123456789012 5e-324\nv 0.30000000000000004 -1.5 100\nf 1 2 3\n";
     let (mesh, _) = read(obj.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
-    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap();
+    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap().0;
     assert_eq!(String::from_utf8(written).unwrap(), format!("# 3 vertices, 1 faces\n{obj}"));
 }
 
@@ -557,14 +345,16 @@ fn edges_without_faces_are_not_written() {
     mesh.set = [p, q].into_iter().collect();
     let found = faces(&mesh, &Stop::new()).unwrap();
     assert_eq!(found.len(), 1);
-    assert_eq!(write(&mesh, &found, Format::Off).unwrap(), b"OFF\n2 0 0\n0 0 0\n0 0 0\n");
+    assert_eq!(write(&mesh, &found, Format::Off).unwrap().0, b"OFF\n2 0 0\n0 0 0\n0 0 0\n");
 }
 
 #[test]
 fn reading_stops() {
     let stop = Stop::new();
     stop.request(Stopped::ByUser);
-    for (format, text) in [(Format::Off, off(TETRAHEDRON)), (Format::Obj, format!("{THREE}f 1 2 3\n"))] {
+    for (format, text) in
+        [(Format::Off, off(TETRAHEDRON)), (Format::Obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned())]
+    {
         let result = read(text.as_bytes(), format, &ReadOptions { strict: false, stop: stop.clone() });
         assert_eq!(result.err(), Some(ReadError::Stopped(Stopped::ByUser)));
     }
@@ -583,15 +373,7 @@ fn assets() -> impl Iterator<Item = (String, Mesh)> {
 }
 
 fn written(mesh: &Mesh, format: Format) -> Vec<u8> {
-    write(mesh, &faces(mesh, &Stop::new()).unwrap(), format).unwrap()
-}
-
-/// A face over a million lines is joined once, not again with each of them.
-#[test]
-fn a_statement_may_be_continued_on_very_many_lines() {
-    let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {}3\n", "\\\n".repeat(1_000_000));
-    check_obj(&text, "1 2 3");
-    check_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\ \n 3\\", "1 2 3");
+    write(mesh, &faces(mesh, &Stop::new()).unwrap(), format).unwrap().0
 }
 
 #[test]

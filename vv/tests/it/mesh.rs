@@ -253,7 +253,7 @@ fn what_is_found_does_not_depend_on_the_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             let found = all_faces(&mesh);
-            let texts = [Format::Obj, Format::Off].map(|format| write(&mesh, &found, format).unwrap());
+            let texts = [Format::Obj, Format::Off].map(|format| write(&mesh, &found, format).unwrap().0);
             let mut closed = mesh.clone();
             let warnings = close(&mut closed, &Stop::new()).unwrap();
             (texts, findings(&mesh), count(&mesh), format!("{warnings:?}"), ring_list(&closed))
@@ -483,13 +483,13 @@ proptest! {
         }
         let faces = all_faces(&mesh);
         for format in [Format::Obj, Format::Off, Format::Ply, Format::PlyText, Format::PlyBigEndian] {
-            let written = write(&mesh, &faces, format).unwrap();
+            let written = write(&mesh, &faces, format).unwrap().0;
             let (again, _) = read(&written, format, &ReadOptions { strict: true, ..ReadOptions::default() }).unwrap();
             for v in mesh.vertices() {
                 let ring = |mesh: &Mesh| cycle(mesh.ring(v).vertices().collect());
                 prop_assert_eq!(ring(&mesh), ring(&again));
             }
-            prop_assert_eq!(write(&again, &all_faces(&again), format).unwrap(), written);
+            prop_assert_eq!(write(&again, &all_faces(&again), format).unwrap().0, written);
         }
     }
 
@@ -531,10 +531,10 @@ proptest! {
         given.sort();
         prop_assert_eq!(kept, given);
         // What was mended once needs no mending again.
-        let written = write(&mesh, &all_faces(&mesh), Format::Off).unwrap();
+        let written = write(&mesh, &all_faces(&mesh), Format::Off).unwrap().0;
         if mesh.vertices().all(|v| mesh.ring(v).gaps() < 3) && mesh.vertex_count() > 0 {
             let (again, _) = read(&written, Format::Off, &ReadOptions { strict: true, ..ReadOptions::default() }).unwrap();
-            prop_assert_eq!(write(&again, &all_faces(&again), Format::Off).unwrap(), written);
+            prop_assert_eq!(write(&again, &all_faces(&again), Format::Off).unwrap().0, written);
         }
         drop(warnings);
     }

@@ -85,7 +85,7 @@ fn compare(name: &str, made: Polygons) {
     if statistics(&mesh, &faces, &Stop::new()).unwrap().closed {
         assert!(volume(&mesh, &faces) > 0.0, "{name} is inside out");
     }
-    let text = write(&mesh, &faces, Format::Obj).unwrap();
+    let text = write(&mesh, &faces, Format::Obj).unwrap().0;
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../assets/meshes/{name}.obj"));
     if std::env::var_os("UPDATE").is_some() {
         std::fs::write(&path, &text).unwrap();

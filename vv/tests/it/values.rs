@@ -136,7 +136,7 @@ fn numbers_and_tags_are_written_as_others_read_them() {
     mesh.set_edge_value(0, vertex(1), vertex(2), Value::Double(f64::INFINITY));
     let color = mesh.declare_vertex_property("color", Value::Vec(glam::DVec3::ONE));
     mesh.set_vertex_value(color, vertex(3), Value::Vec(dvec3(f64::NAN, -1.0, 2.0)));
-    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap();
+    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap().0;
     assert_eq!(
         String::from_utf8(written).unwrap(),
         "# 3 vertices, 1 faces\nv 0.00001 1000000000000000 0 1 1 1\nv 1e-6 1e16 0 1 1 1\nv 0 1 0 0 0 1\nf 1 2 3\n\

@@ -42,6 +42,19 @@ fn what_a_run_goes_by_is_not_written_over() {
     assert_eq!(vertices(&folder.read("octahedron.obj"))[..2], ["2 0 0", "0 0 0"]);
 }
 
+#[test]
+fn what_a_format_has_no_place_for_is_said_once_for_all_files() {
+    let program = "vertex { int age; };\nvoid step(mesh& S) { forall v in S v$age += 1; }\n";
+    let folder = Folder::with(&[("grow.vv", program)]);
+    let said = "warning: `age` of the vertices is not written: `.stl` files have no place for it\n\
+                help: `.ply` and `.glb` files keep it";
+    let ended = folder.check("run grow.vv -i octahedron.obj -n 2 -o a_{n}.stl", 0, said);
+    assert_eq!(ended.stderr.matches("not written").count(), 1, "{}", ended.stderr);
+    folder.check("run grow.vv -i octahedron.obj -o a.ply", 0, "");
+    folder.check("mesh convert a.ply -o b.off", 0, &said.replace("stl", "off"));
+    folder.check("mesh convert a.ply -o b.glb", 0, "");
+}
+
 /// As the shell's `<(…)` gives it.
 #[test]
 #[cfg(unix)]

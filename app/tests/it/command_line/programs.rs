@@ -5,6 +5,27 @@ use std::fs;
 use super::*;
 
 #[test]
+fn a_program_for_triangles_says_so_where_it_fails_on_other_faces() {
+    let square = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3\n3 1 4 2\n";
+    let folder = Folder::with(&[("house.off", square)]);
+    let flaw =
+        |comment: &str| format!("{comment}\nvoid step(mesh& S) {{ forall p in S {{ erase (any in p) from p; }} }}\n");
+    let says = "the program is for triangle meshes, and 1 of the 2 faces is none: ";
+    fs::write(folder.path("flaw.vv"), flaw("// Of triangle\n// meshes.")).unwrap();
+    folder.check("run flaw.vv -i house.off", 0, &format!("warning: after step 1 of 1 of `step`: {says}"));
+    let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets");
+    for program in ["sqrt3", "paper-sqrt3"] {
+        let said = "error: the program is for triangle meshes, and 72 of the 72 faces are none: v";
+        folder.check(&format!("run {assets}/programs/{program}.vv -i {assets}/meshes/torus-quads.obj"), 1, said);
+    }
+    // It is none of a program's business that says nothing, nor is it a fault of triangles.
+    fs::write(folder.path("flaw.vv"), flaw("// Of meshes.")).unwrap();
+    assert!(!folder.run("run flaw.vv -i house.off").stderr.contains("triangle"));
+    fs::write(folder.path("flaw.vv"), flaw("// Of triangle meshes.")).unwrap();
+    assert!(!folder.run("run flaw.vv -i square.off").stderr.contains("triangle"));
+}
+
+#[test]
 fn errors_in_the_text_end_before_anything_is_written() {
     let text = "void step(mesh& S) {\n  x = 1;\n  y = 2;\n}\n";
     let folder = Folder::with(&[("p.vv", text)]);

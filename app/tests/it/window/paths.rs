@@ -85,6 +85,26 @@ fn a_name_that_is_offered_is_typed_over() {
 }
 
 #[test]
+fn what_a_mesh_file_has_no_place_for_is_among_the_problems() {
+    let (_folder, path) = folder();
+    let mut window = octahedron();
+    write(&mut window, "vertex { int age; };\nvoid step(mesh& S) { forall v in S v$age += 1; }\n");
+    press_outside(&mut window, Key::Num1);
+    let save = |window: &mut Harness<'static, App>, name: &str, said: &str| {
+        window.state_mut().session_mut().chosen(Purpose::ExportMesh, format!("{path}{name}").into());
+        until(window, said, |s| s.notice().is_some_and(|(_, text)| text.ends_with(said)));
+        let (severity, _) = window.state().session().notice().unwrap();
+        assert_eq!(severity == vv::diagnostic::Severity::Warning, said != name);
+        window.run_steps(2);
+    };
+    save(&mut window, "a.stl", "a.stl, but not all of it");
+    window.get_by_label_contains("`age` of the vertices is not written: `.stl` files have no place for it");
+    // Until it was saved whole.
+    save(&mut window, "a.ply", "a.ply");
+    assert!(window.query_by_label_contains("is not written").is_none());
+}
+
+#[test]
 fn a_text_without_a_file_is_saved_before_the_window_closes() {
     let (_folder, path) = folder();
     let mut window = octahedron();

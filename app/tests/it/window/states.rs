@@ -149,7 +149,7 @@ fn a_program_that_does_not_compile_has_no_rules_or_generations_of_the_one_before
     settle(&mut window);
     let session = window.state().session();
     assert_eq!((session.program().is_none(), session.rule()), (true, None));
-    assert_eq!(session.reached().len(), 0);
+    assert_eq!(session.reached(0), None);
     assert_eq!((session.origin(), session.console().len(9)), (Origin::Former, 0));
     assert!(window.query_by_label("w").is_none(), "no parameters");
     assert!(window.get_by_label("Step").accesskit_node().is_disabled());

@@ -148,8 +148,9 @@ impl<'a> Data<'a> {
             let values = self.view(sparse.values.buffer_view, sparse.values.byte_offset, &Layout { count, ..layout });
             let values = values.map_err(|what| wrong(&what))?;
             for (&i, value) in indices.iter().zip(values.chunks_exact(width)) {
-                let row = numbers.chunks_exact_mut(width).nth(i as usize);
-                row.ok_or_else(|| wrong("a sparse index is too large"))?.copy_from_slice(value);
+                let row = whole(i).and_then(|i| numbers.chunks_exact_mut(width).nth(i));
+                let row = row.ok_or_else(|| wrong(&format!("{i} is no sparse index of {} values", accessor.count)))?;
+                row.copy_from_slice(value);
             }
         }
         Ok(Rows { width, numbers })
@@ -183,6 +184,11 @@ impl<'a> Data<'a> {
         }
         Ok(numbers)
     }
+}
+
+/// A number as the index that it is, if it is one.
+pub(super) fn whole(x: f64) -> Option<usize> {
+    (x >= 0.0 && x == x.trunc() && x < u32::MAX.into()).then_some(x as usize)
 }
 
 fn buffer<'a>(buffer: &Buffer, index: usize, blob: Option<&'a [u8]>) -> Result<Cow<'a, [u8]>, ReadError> {

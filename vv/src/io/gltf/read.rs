@@ -7,7 +7,7 @@ use glam::{DMat4, DQuat, DVec3};
 use super::super::color::Colors;
 use super::super::weld::weld;
 use super::super::{Place, ReadError, invalid, is_name, note, warning};
-use super::accessor::{Data, Rows, lower};
+use super::accessor::{Data, Rows, lower, whole};
 use super::document::{Document, Node, Primitive};
 use super::{BIN, COLOR, JSON, MAGIC, POSITION, VERSION, is_glb, to_srgb};
 use crate::diagnostic::Diagnostic;
@@ -215,9 +215,9 @@ impl<'a> Scene<'a> {
             Some(accessor) => {
                 let indices = self.data.read(accessor)?;
                 let corner = |&i: &f64| {
-                    let there = i >= 0.0 && i < count as f64 && i == i.trunc();
                     let message = || format!("accessor {accessor}: {i} is no index of {count} vertices");
-                    if there { Ok(base as u32 + i as u32) } else { Err(invalid(None, message())) }
+                    let corner = whole(i).filter(|&i| i < count).map(|i| (base + i) as u32);
+                    corner.ok_or_else(|| invalid(None, message()))
                 };
                 indices.numbers.iter().map(corner).collect::<Result<_, _>>()?
             }

@@ -3,11 +3,12 @@
 use base64::Engine;
 use serde_json::{Value as Json, json};
 
+use super::super::losses::Of;
 use super::super::stl::single;
 use super::super::{color, for_each_triangle, is_name, numbering};
 use super::{BIN, COLOR, JSON, MAGIC, POSITION, VERSION, to_linear};
 use crate::mesh::faces::Faces;
-use crate::mesh::{Mesh, Property, Type, Value};
+use crate::mesh::{Mesh, Type, Value};
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
@@ -71,7 +72,7 @@ impl Scene {
                 attributes.insert(COLOR.to_owned(), parts.add_floats("VEC3", colors.as_flattened(), 3, json!({})));
             }
             for (i, property) in mesh.vertex_properties().iter().enumerate() {
-                let Some((kind, width)) = kind(property) else { continue };
+                let Some((kind, width)) = kind(&property.name, property.values.ty()) else { continue };
                 let mut values = Vec::new();
                 for &v in &members {
                     match mesh.vertex_value(i, v) {
@@ -111,12 +112,16 @@ impl Scene {
     }
 }
 
-/// How a property is kept, and how many numbers that are; `None` for what is kept otherwise or not at all.
-fn kind(property: &Property) -> Option<(&'static str, usize)> {
-    match property.values.ty() {
-        _ if !is_name(property.name.as_bytes()) => None,
+/// Whether a property of this name and type is written.
+pub(in super::super) fn holds(of: Of, name: &str, ty: Type) -> bool {
+    of == Of::Vertices && (color::is_color(name, ty) || kind(name, ty).is_some())
+}
+
+/// How a vertex property is kept, and how many numbers that are; `None` for what is kept otherwise or not at all.
+fn kind(name: &str, ty: Type) -> Option<(&'static str, usize)> {
+    match ty {
+        _ if !is_name(name.as_bytes()) || color::is_color(name, ty) => None,
         Type::Bool | Type::Int | Type::Double => Some(("SCALAR", 1)),
-        Type::Vec if property.name == color::COLOR => None,
         Type::Vec => Some(("VEC3", 3)),
         Type::Vertex => None,
     }

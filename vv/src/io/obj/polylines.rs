@@ -36,6 +36,11 @@ pub(super) fn write(mesh: &Mesh, members: &[Vertex], numbers: &[usize], text: &m
     }
 }
 
+/// How many wires a mesh has.
+pub(in super::super) fn count(mesh: &Mesh) -> usize {
+    Wires::new(mesh, &mesh.set.iter().collect::<Vec<_>>()).halves.len() / 2
+}
+
 struct Wires {
     /// Those from one vertex stand together, in order of its ring.
     halves: Vec<Half>,

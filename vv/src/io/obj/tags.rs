@@ -118,11 +118,14 @@ impl Tags {
     }
 }
 
+/// Whether a property of this name and type, of edges or vertices, says how sharp they are.
+pub(super) fn is_sharpness(name: &str, ty: Type) -> bool {
+    name == SHARPNESS && matches!(ty, Type::Double | Type::Int)
+}
+
 /// The tags of a mesh: what is sharper than 0.
 pub(super) fn write(mesh: &Mesh, members: &[Vertex], numbers: &[usize], text: &mut Vec<u8>) {
-    let column = |properties: &[Property]| {
-        properties.iter().position(|p| p.name == SHARPNESS && matches!(p.values.ty(), Type::Double | Type::Int))
-    };
+    let column = |properties: &[Property]| properties.iter().position(|p| is_sharpness(&p.name, p.values.ty()));
     let mut tag = |head: std::fmt::Arguments<'_>, value: Option<Value>| {
         let sharpness = match value {
             Some(Value::Double(f64::INFINITY)) => INFINITE,

@@ -1,5 +1,7 @@
 //! Rows to polygons and named values.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::super::color::Colors;
@@ -28,7 +30,7 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
     let mut positions = Vec::new();
     let mut values = NamedValues::default();
     let mut faces = FaceRows::default();
-    let mut ignored = Vec::new();
+    let (mut ignored, mut diagnostics) = (Vec::new(), Vec::new());
     for element in &header.elements {
         match element.name {
             b"vertex" => {
@@ -36,19 +38,23 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
                 positions = table.positions();
                 values.vertices.extend(table.colors(element));
                 values.vertices.extend(table.properties(&mut ignored));
+                diagnostics.extend(first_of_each(&mut values.vertices, element));
             }
             b"face" => faces.read(&mut source, element, vertices.count, stop)?,
             b"tristrips" => faces.read_strips(&mut source, element, vertices.count, stop)?,
             b"edge" => {
                 let mut table = Table::read(&mut source, element, stop)?;
                 let ends = table.ends(element, vertices.count)?;
-                let named = table.properties(&mut ignored).into_iter();
-                values.edges.extend(named.map(|p| EdgeValues { name: p.name, ends: ends.clone(), values: p.values }));
+                let mut named = table.properties(&mut ignored);
+                diagnostics.extend(first_of_each(&mut named, element));
+                let of_edges = |p: Property| EdgeValues { name: p.name, ends: ends.clone(), values: p.values };
+                values.edges.extend(named.into_iter().map(of_edges));
             }
             b"mesh" => {
                 let table = Table::read(&mut source, element, stop)?;
-                let of_the_whole = table.properties(&mut ignored).into_iter();
-                values.mesh.extend(of_the_whole.filter_map(|p| Some((p.name, p.values.get(0)?))));
+                let mut named = table.properties(&mut ignored);
+                diagnostics.extend(first_of_each(&mut named, element));
+                values.mesh.extend(named.into_iter().filter_map(|p| Some((p.name, p.values.get(0)?))));
             }
             _ => {
                 Table::pass(&mut source, element, stop)?;
@@ -61,7 +67,6 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
     let mut polygons = Polygons::new(positions);
     polygons.values = values;
     faces.give(&mut polygons, stop)?;
-    let mut diagnostics = Vec::new();
     ignored
         .extend(vertices.properties.iter().filter(|p| is_normal(p.name) || p.length.is_some()).map(|p| show(p.name)));
     if !ignored.is_empty() {
@@ -319,6 +324,22 @@ impl<'a> Table<'a> {
         }
         properties
     }
+}
+
+/// Leaves of properties with one name the first, with a warning: columns `v` and `v_x`, `v_y`, `v_z` are both `v`.
+fn first_of_each(properties: &mut Vec<Property>, element: &Element<'_>) -> Vec<Diagnostic> {
+    let mut known = BTreeSet::new();
+    let mut warnings = Vec::new();
+    properties.retain(|property| {
+        let is_first = known.insert(property.name.clone());
+        if !is_first {
+            let message =
+                format!("{} has two properties `{}`; only the first is read", show(element.name), property.name);
+            warnings.push(warning(message));
+        }
+        is_first
+    });
+    warnings
 }
 
 fn vectors(x: &[f64], y: &[f64], z: &[f64]) -> Vec<DVec3> {

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::io::Write;
 
-use super::super::{COLOR, is_name, numbering, polygons, push_number};
+use super::super::losses::Of;
+use super::super::{color, is_name, numbering, polygons, push_number};
 use super::{Encoding, Scalar};
 use crate::mesh::faces::Faces;
 use crate::mesh::{Mesh, Property, Type, Value, Values, Vertex};
@@ -15,11 +16,7 @@ const OF_ANYTHING: [&str; 3] = ["nx", "ny", "nz"];
 
 pub(in super::super) fn write(mesh: &Mesh, faces: &Faces, encoding: Encoding) -> Vec<u8> {
     let (numbers, members) = numbering(mesh);
-    let named = |p: &Property| (p.name.clone(), p.values.clone());
-    let vertices = columns(mesh.vertex_properties().iter().map(named), &OF_VERTICES, true);
-    let edges = columns(mesh.edge_properties().iter().map(named), &OF_EDGES, false);
-    let values = mesh.mesh_properties().iter().map(|(name, value)| (name.clone(), Values::filled(*value, 1)));
-    let whole = columns(values, &OF_ANYTHING, false);
+    let [vertices, edges, whole] = [Of::Vertices, Of::Edges, Of::Whole].map(|of| columns(mesh, of));
     let edge_rows = if edges.is_empty() { Vec::new() } else { edge_rows(mesh, &members, &edges) };
     let longest = polygons(faces).map(<[Vertex]>::len).max().unwrap_or(0);
     let length = if longest > usize::from(u8::MAX) { Scalar::Uint32 } else { Scalar::Uint8 };
@@ -74,13 +71,27 @@ pub(in super::super) fn write(mesh: &Mesh, faces: &Faces, encoding: Encoding) ->
     row.out
 }
 
+/// The properties that are written.
+pub(in super::super) fn kept(mesh: &Mesh, of: Of) -> Vec<usize> {
+    columns(mesh, of).into_iter().map(|column| column.index).collect()
+}
+
 /// How properties are written. Of two that would have a column of the same name the second is left out, as no reader
 /// could tell them apart.
-fn columns(properties: impl Iterator<Item = (String, Values)>, taken: &[&str], are_of_vertices: bool) -> Vec<Column> {
+fn columns(mesh: &Mesh, of: Of) -> Vec<Column> {
+    let named = |p: &Property| (p.name.clone(), p.values.clone());
+    let (properties, taken): (Vec<_>, &[&str]) = match of {
+        Of::Vertices => (mesh.vertex_properties().iter().map(named).collect(), &OF_VERTICES),
+        Of::Edges => (mesh.edge_properties().iter().map(named).collect(), &OF_EDGES),
+        Of::Whole => {
+            let values = |(name, value): &(String, Value)| (name.clone(), Values::filled(*value, 1));
+            (mesh.mesh_properties().iter().map(values).collect(), &OF_ANYTHING)
+        }
+    };
     let mut used = BTreeSet::new();
     let mut columns = Vec::new();
-    for (index, (name, values)) in properties.enumerate() {
-        let is_color = are_of_vertices && name == COLOR && values.ty() == Type::Vec;
+    for (index, (name, values)) in properties.into_iter().enumerate() {
+        let is_color = of == Of::Vertices && color::is_color(&name, values.ty());
         let is_free = |name: &String| !used.contains(name) && (is_color || !taken.contains(&name.as_str()));
         let column = Column::new(&name, &values, index, is_color);
         if let Some(column) = column.filter(|column| column.names.iter().all(is_free)) {

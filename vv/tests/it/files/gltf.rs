@@ -89,9 +89,14 @@ fn nodes_place_and_mirror() {
 
 /// Points without indices, with a second accessor in which the point at 1 lies elsewhere.
 fn points(mode: u32, accessor: u32) -> Vec<u8> {
+    points_but_one(mode, accessor, (5123, 1u32.to_le_bytes()))
+}
+
+/// The same with another index, of a component type, of the point that lies elsewhere.
+fn points_but_one(mode: u32, accessor: u32, (component, index): (u32, [u8; 4])) -> Vec<u8> {
     let points =
         [[0f32, 0.], [1., 0.], [0., 1.], [1., 1.], [0., 2.]].map(|[x, y]| [x, y, 0.].map(f32::to_le_bytes).concat());
-    let elsewhere = [&1u16.to_le_bytes()[..], &[0; 2], &[5f32, 6., 7.].map(f32::to_le_bytes).concat()].concat();
+    let elsewhere = [&index[..], &[5f32, 6., 7.].map(f32::to_le_bytes).concat()].concat();
     let data = [points.concat(), elsewhere].concat();
     let document = json!({
         "asset": { "version": "2.0" },
@@ -100,7 +105,7 @@ fn points(mode: u32, accessor: u32) -> Vec<u8> {
             { "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 5 },
             { "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 5, "sparse": {
                 "count": 1,
-                "indices": { "bufferView": 1, "componentType": 5123 },
+                "indices": { "bufferView": 1, "componentType": component },
                 "values": { "bufferView": 1, "byteOffset": 4 },
             } },
         ],
@@ -121,6 +126,19 @@ fn sparse_values_replace_others() {
     let (mesh, _) = read(&points(5, 1), Format::Gltf, &ReadOptions::default()).unwrap();
     assert_eq!(mesh.positions()[1].to_array(), [5.0, 6.0, 7.0]);
     assert_eq!(mesh.positions()[2].to_array(), [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn sparse_indices_that_are_none_are_refused() {
+    let check = |component: u32, index: [u8; 4], shown: &str| {
+        let expected = format!("error: accessor 1: {shown} is no sparse index of 5 values");
+        assert_eq!(outcome(&points_but_one(5, 1, (component, index)), Format::Gltf, false), expected);
+    };
+    check(5125, 5u32.to_le_bytes(), "5");
+    check(5125, u32::MAX.to_le_bytes(), "4294967295");
+    check(5120, [-1i8 as u8, 0, 0, 0], "-1");
+    check(5126, 1.5f32.to_le_bytes(), "1.5");
+    check(5126, f32::NAN.to_le_bytes(), "NaN");
 }
 
 #[test]

@@ -76,6 +76,30 @@ fn what_is_not_read_is_named() {
     );
 }
 
+/// As programs have one `v` only, and would find either.
+#[test]
+fn of_two_properties_with_one_name_the_first_is_read() {
+    let vector = "property float v_x\nproperty float v_y\nproperty float v_z\n";
+    check_properties(&format!("property int v\n{vector}"), [" 7 1 2 3"; 3], "v: 7 7 7");
+    check_properties(&format!("{vector}property int v\n"), [" 1 2 3 7"; 3], "v: (1 2 3) (1 2 3) (1 2 3)");
+    let colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    let text = triangle(&format!("property double color\n{colors}"), [" 9 255 0 0"; 3]);
+    check_values(text.as_bytes(), Format::Ply, "color: (1 0 0) (1 0 0) (1 0 0)");
+    let text = triangle("", [""; 3]).replace(
+        "end_header\n",
+        &format!(
+            "element edge 1\nproperty int vertex1\nproperty int vertex2\nproperty int v\n{vector}element mesh 1\n\
+             property int v\n{vector}end_header\n"
+        ),
+    ) + "0 1 7 1 2 3\n8 1 2 3\n";
+    check_values(text.as_bytes(), Format::Ply, "v: 1-2 7\nv: 8");
+    check(
+        &text,
+        "1 2 3\nWarning: `edge` has two properties `v`; only the first is read\n\
+         Warning: `mesh` has two properties `v`; only the first is read",
+    );
+}
+
 #[test]
 fn edges_and_the_whole_have_properties_too() {
     let text = triangle("", [""; 3]).replace(

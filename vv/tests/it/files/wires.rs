@@ -21,7 +21,7 @@ fn rings_and_lines(text: &str) -> [String; 2] {
     let (mesh, messages) = read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
     let mut rings = ring_list(&mesh);
     messages.iter().for_each(|d| rings += &format!("; {}", d.message));
-    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap();
+    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap().0;
     let lines = String::from_utf8(written).unwrap();
     let lines: Vec<_> = lines.lines().filter(|line| line.starts_with(['f', 'l'])).collect();
     [rings, lines.join(" / ")]
@@ -105,7 +105,7 @@ fn sharpness_of_wires_is_kept() {
     let text = obj(2, "l 1 2 / t crease 2/1/0 0 1 2.5");
     let (mesh, messages) = read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
     assert_eq!(messages, []);
-    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap();
+    let written = write(&mesh, &faces(&mesh, &Stop::new()).unwrap(), Format::Obj).unwrap().0;
     assert!(String::from_utf8(written).unwrap().ends_with("l 1 2\nt crease 2/1/0 0 1 2.5\n"));
 }
 

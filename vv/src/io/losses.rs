@@ -1,0 +1,141 @@
+//! What a file cannot hold of a mesh: said when it is written.
+
+use super::{Format, color, gltf, obj, ply};
+use crate::diagnostic::Diagnostic;
+use crate::mesh::{Mesh, Property, Type, Value};
+
+/// Most names that are said of one kind.
+const MOST_NAMED: usize = 8;
+
+/// What a property is of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    Vertices,
+    Edges,
+    Whole,
+}
+
+/// Why a property is left out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Why {
+    /// It holds vertices, which no format does.
+    Vertices,
+    /// The format has no place for it.
+    Format,
+    /// In the format its name stands for something else.
+    Name,
+}
+
+/// Warnings: one for each kind of thing and reason. What has nothing but its default is no loss.
+pub(super) fn losses(mesh: &Mesh, format: Format) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    for of in [Of::Vertices, Of::Edges, Of::Whole] {
+        let lost = lost(mesh, format, of);
+        for why in [Why::Format, Why::Name, Why::Vertices] {
+            let names: Vec<_> = lost.iter().filter(|lost| lost.why == why).map(|lost| lost.name).collect();
+            if !names.is_empty() {
+                let mut same = lost.iter().filter(|lost| lost.why == why);
+                let in_gltf = same.all(|lost| gltf::holds(of, lost.name, lost.ty));
+                diagnostics.push(warning(of, why, &names, format, in_gltf));
+            }
+        }
+    }
+    let wires = if format == Format::Obj { 0 } else { obj::wires(mesh) };
+    if wires > 0 {
+        let (edges, are) = if wires == 1 { ("edge", "is") } else { ("edges", "are") };
+        let message = format!("{wires} {edges} without faces {are} not written: {} have faces alone", files(format));
+        diagnostics.push(super::warning(message).hint("`.obj` files have room for lines"));
+    }
+    diagnostics
+}
+
+/// A property that is left out.
+struct Lost<'a> {
+    name: &'a str,
+    ty: Type,
+    why: Why,
+}
+
+fn lost(mesh: &Mesh, format: Format, of: Of) -> Vec<Lost<'_>> {
+    let properties: Vec<(&str, Type)> = match of {
+        Of::Vertices => mesh.vertex_properties().iter().map(name_and_type).collect(),
+        Of::Edges => mesh.edge_properties().iter().map(name_and_type).collect(),
+        Of::Whole => mesh.mesh_properties().iter().map(|(name, value)| (name.as_str(), value.ty())).collect(),
+    };
+    let named = matches!(format, Format::Ply | Format::PlyText | Format::PlyBigEndian);
+    let in_ply = if named { ply::kept(mesh, of) } else { Vec::new() };
+    let holds = |i: usize, name: &str, ty: Type| match format {
+        Format::Obj => obj::holds(of, name, ty),
+        Format::Off => of == Of::Vertices && color::is_color(name, ty),
+        Format::Ply | Format::PlyText | Format::PlyBigEndian => in_ply.contains(&i),
+        Format::Stl | Format::StlText => false,
+        Format::Glb | Format::Gltf => gltf::holds(of, name, ty),
+    };
+    let left_out = properties.into_iter().enumerate().filter(|&(i, (name, ty))| !holds(i, name, ty));
+    let told = left_out.filter(|&(i, _)| tells(mesh, of, i));
+    told.map(|(_, (name, ty))| {
+        let why = if ty == Type::Vertex {
+            Why::Vertices
+        } else if named {
+            Why::Name
+        } else {
+            Why::Format
+        };
+        Lost { name, ty, why }
+    })
+    .collect()
+}
+
+fn name_and_type(property: &Property) -> (&str, Type) {
+    (&property.name, property.values.ty())
+}
+
+/// Whether a property has another value than its default, somewhere.
+fn tells(mesh: &Mesh, of: Of, i: usize) -> bool {
+    match of {
+        Of::Vertices => {
+            let default = mesh.vertex_properties().get(i).map(|p| p.default);
+            mesh.set.iter().any(|v| mesh.vertex_value(i, v) != default)
+        }
+        Of::Edges => {
+            let default = mesh.edge_properties().get(i).map(|p| p.default);
+            mesh.set.iter().any(|p| mesh.edge_values(i, p).any(|(q, x)| Some(x) != default && mesh.set.contains(q)))
+        }
+        Of::Whole => mesh.mesh_properties().get(i).is_some_and(|(_, value)| *value != Value::zero(value.ty())),
+    }
+}
+
+fn warning(of: Of, why: Why, names: &[&str], format: Format, in_gltf: bool) -> Diagnostic {
+    let shown: Vec<_> = names.iter().take(MOST_NAMED).map(|name| format!("`{name}`")).collect();
+    let more = names.len().saturating_sub(MOST_NAMED);
+    let what = match (shown.split_last(), more) {
+        (Some((last, [])), 0) => last.clone(),
+        (Some((last, before)), 0) => format!("{} and {last}", before.join(", ")),
+        _ => format!("{} and {more} more", shown.join(", ")),
+    };
+    let of = match of {
+        Of::Vertices => "the vertices",
+        Of::Edges => "the edges",
+        Of::Whole => "the mesh",
+    };
+    let (is, it, names) =
+        if names.len() == 1 { ("is", "it", "its name stands") } else { ("are", "them", "their names stand") };
+    let files = files(format);
+    let because = match why {
+        Why::Format => format!("{files} have no place for {it}"),
+        Why::Name => format!("{names} for something else in {files}"),
+        Why::Vertices => "no format holds vertices as values".to_owned(),
+    };
+    let warning = super::warning(format!("{what} of {of} {is} not written: {because}"));
+    match why {
+        Why::Format if in_gltf => warning.hint(format!("`.ply` and `.glb` files keep {it}")),
+        Why::Format => warning.hint(format!("`.ply` files keep {it}")),
+        Why::Name => warning.hint("another name would be kept"),
+        Why::Vertices => warning,
+    }
+}
+
+/// `.obj` files.
+fn files(format: Format) -> String {
+    format!("`.{}` files", format.extension())
+}
