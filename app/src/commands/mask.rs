@@ -297,14 +297,25 @@ impl Bench<'_> {
         Ok(table)
     }
 
-    /// What the rule is meant for: triangles if it makes triangles of them.
+    /// What the rule is meant for: triangles if it makes triangles of them, quads if it makes new quads of those, but for
+    /// a few at irregular vertices. What does neither is shown on triangles, as it may ask for them.
     fn natural(&self) -> Around {
-        let makes_triangles = || {
-            let star = Star::new(6, Around::Triangles, false)?;
+        let made = |valence, around| {
+            let star = Star::new(valence, around, false)?;
             let result = self.machine.run(self.rule, &star.mesh, 1, &self.settings, &mut Vec::new()).ok()?;
-            Some(faces(&result, &Stop::new()).ok()?.iter().all(|face| face.len() == 3))
+            let count = |mesh: &Mesh| Some(faces(mesh, &Stop::new()).ok()?.iter().map(<[_]>::len).collect());
+            Some([count(&star.mesh)?, count(&result)?])
         };
-        if makes_triangles() == Some(true) { Around::Triangles } else { Around::Quads }
+        let all_triangles = |[_, after]: [Vec<usize>; 2]| after.iter().all(|&n| n == 3);
+        let mostly_quads = |[before, after]: [Vec<usize>; 2]| {
+            before.len() != after.len() && after.iter().filter(|&&n| n == 4).count() > after.len() / 2
+        };
+        let for_quads = || made(4, Around::Quads).is_some_and(mostly_quads);
+        if !made(6, Around::Triangles).is_some_and(all_triangles) && for_quads() {
+            Around::Quads
+        } else {
+            Around::Triangles
+        }
     }
 }
 

@@ -11,6 +11,7 @@ mod engines;
 mod examples;
 mod files;
 mod gallery;
+mod includes;
 mod manual;
 mod masks;
 mod mesh;

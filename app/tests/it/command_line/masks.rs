@@ -17,6 +17,23 @@ fn masks_are_a_table_with_fractions() {
     assert_eq!(object["rows"][0]["masks"][0]["weights"][1]["fraction"], "1/12");
 }
 
+/// A coral grows on triangles and leaves quads as they are; gyro makes pentagons of both.
+#[test]
+fn masks_are_shown_among_the_faces_that_a_rule_is_for() {
+    let programs = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/programs");
+    for (rule, around, said) in [
+        ("coral.vv --rule grow", "triangles", "the connectivity depends on the positions"),
+        ("coral.vv --rule smooth", "quads", ""),
+        ("conway.vv --rule gyro", "triangles", ""),
+        ("conway.vv --rule dual", "quads", ""),
+        ("doo-sabin.vv", "quads", ""),
+        ("sqrt3.vv", "triangles", ""),
+    ] {
+        let table = check(&format!("mask {programs}/{rule} --valence 5"), 0, said).stdout;
+        assert!(table.contains(&format!("… among {around}\n")), "{rule}: {table}");
+    }
+}
+
 #[test]
 fn masks_of_a_mesh_are_those_of_its_vertices() {
     let folder = Folder::with(&[("thirds.vv", THIRDS)]);

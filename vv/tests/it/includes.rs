@@ -1,0 +1,254 @@
+//! The files that programs include for edits, measures, building and handing values on, against closed forms.
+//!
+//! Each text runs on both engines, which must print the same; what it prints is compared with what should stand there.
+
+use std::path::{Path, PathBuf};
+
+use vv::engine::{Engine, Machine, Settings, run};
+use vv::io::{Format, ReadOptions, read};
+use vv::mesh::close::close;
+use vv::mesh::faces::faces;
+use vv::mesh::{Mesh, Vertex};
+use vv::stop::Stop;
+
+fn assets(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets").join(folder)
+}
+
+fn shipped(name: &str) -> Mesh {
+    read(&std::fs::read(assets("meshes").join(name)).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0
+}
+
+/// Runs a program that includes the files that are named, by its default rule, on a mesh.
+#[track_caller]
+fn outcome(includes: &[&str], text: &str, mesh: &Mesh) -> (Mesh, Vec<String>) {
+    let text = includes.iter().fold(text.to_owned(), |text, file| format!("#include \"{file}.vv\"\n{text}"));
+    let mut include = |_: &str, name: &str| {
+        let text = std::fs::read_to_string(assets("programs").join(name)).map_err(|e| e.to_string())?;
+        Ok(vv::Included { name: name.to_owned(), text })
+    };
+    let compiled = vv::compile("test.vv", &text, &mut include);
+    assert!(compiled.diagnostics.is_empty(), "{:#?}", compiled.diagnostics);
+    let machine = Machine::new(compiled.program.unwrap(), Engine::Native);
+    assert_eq!(machine.refusal(), None);
+    let rule = machine.program().default_rule().unwrap();
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    let interpreted = run(machine.program(), rule, mesh, 1, &Settings::default(), &mut first).unwrap();
+    let mut made = machine.run(rule, mesh, 1, &Settings::default(), &mut second).unwrap();
+    assert_eq!(first, second);
+    assert_eq!(interpreted.positions(), made.positions());
+    assert_eq!(close(&mut made, &Stop::new()).unwrap(), []);
+    (made, first)
+}
+
+/// What statements print, each a number, on a mesh; `expected` within 1e-12.
+#[track_caller]
+fn measured(mesh: &str, statements: &str, expected: &[f64]) {
+    let text = format!("step {{ {statements} }}");
+    let (_, printed) = outcome(&["geometry"], &text, &shipped(mesh));
+    assert_eq!(printed.len(), expected.len(), "{printed:?}");
+    for (got, expected) in printed.iter().zip(expected) {
+        let got: f64 = got.parse().unwrap();
+        assert!((got - expected).abs() < 1e-12, "{got}, expected {expected}: {statements}");
+    }
+}
+
+/// The corners of faces, each from its oldest, and which vertices lie on a boundary.
+fn surface(mesh: &Mesh) -> (Vec<Vec<Vertex>>, Vec<usize>) {
+    let mut all: Vec<Vec<Vertex>> = faces(mesh, &Stop::new()).unwrap().iter().map(<[_]>::to_vec).collect();
+    all.sort();
+    (all, mesh.set.iter().map(|v| mesh.ring(v).gaps()).collect())
+}
+
+#[test]
+fn edges_are_halved_contracted_and_flipped_back() {
+    let undone = [
+        "forall p in S forall q in p if (p > q) { vertex x = halve(p, q); contract(x, p); }",
+        "forall p in S forall q in p { \
+           if (p < q || !is q in p || !can_flip(p, q)) continue; \
+           vertex a = nextto q in p, b = prevto q in p; flip(p, q); flip(a, b); }",
+    ];
+    for mesh in ["icosahedron.obj", "torus.obj", "grid-open.obj", "cube-open.obj"] {
+        let before = shipped(mesh);
+        for text in undone {
+            let (after, _) = outcome(&["edits"], &format!("step {{ {text} }}"), &before);
+            assert_eq!(surface(&before), surface(&after), "{mesh}: {text}");
+        }
+    }
+}
+
+#[test]
+fn a_flip_or_a_contraction_that_would_join_neighbours_is_not_offered() {
+    let count = "step { int flips = 0, ways = 0; \
+        forall p in S forall q in p { flips += can_flip(p, q) ? 1 : 0; ways += can_contract(p, q) ? 1 : 0; } \
+        print flips, \" \", ways; }";
+    // Of a tetrahedron all corners are neighbours. Of a sheet of eight triangles the eight inner edges can be flipped, and
+    // the one vertex within can go into any of its six neighbours.
+    for (mesh, expected) in [("tetrahedron.obj", "0 0"), ("octahedron.obj", "24 24"), ("square-open.obj", "16 6")] {
+        assert_eq!(outcome(&["edits"], count, &shipped(mesh)).1, [expected], "{mesh}");
+    }
+}
+
+#[test]
+fn a_pyramid_makes_a_triangle_of_each_side() {
+    let text = "step { mesh N; forall f in faces S add pyramid(f) to N; merge S with N; \
+                forall c in N print valence c, \" \", length(c$pos); }";
+    let (after, printed) = outcome(&["edits"], text, &shipped("cube.obj"));
+    assert_eq!(printed, ["4 1"; 6]);
+    let (faces, _) = surface(&after);
+    assert_eq!((faces.len(), faces.iter().all(|f| f.len() == 3)), (24, true));
+}
+
+#[test]
+fn areas_middles_and_normals_of_solids() {
+    // Corners of the cube at ±1, of the icosahedron at (0, ±1, ±φ): edges are 2 long.
+    measured("cube.obj", "double a; forall f in faces S a += length(area(f)); print a;", &[24.0]);
+    measured("icosahedron.obj", "double a; forall f in faces S a += length(area(f)); print a;", &[20.0 * 3f64.sqrt()]);
+    let off = "double off; forall p in S off = max(off, distance(normal(p), normalize(p$pos))); print off;";
+    measured("icosahedron.obj", off, &[0.0]);
+    measured("cube.obj", off, &[0.0]);
+    let middle = "double off; forall f in faces S \
+                  off = max(off, distance(normalize(middle(f)), normalize(area(f)))); print off;";
+    measured("dodecahedron.obj", middle, &[0.0]);
+}
+
+/// A closed surface faces all sides alike; five triangles at a corner of the icosahedron face along it.
+#[test]
+fn areas_as_vectors_sum_to_nothing() {
+    for mesh in ["elephant.obj", "genus-2.obj", "pawn.obj"] {
+        measured(mesh, "vec a; forall f in faces S a += area(f); print length(a);", &[0.0]);
+    }
+    let phi = (1.0 + 5f64.sqrt()) / 2.0;
+    // Each triangle is √3, at the dihedral's inner radius φ²/√3 from the centre; the corner at √(1 + φ²).
+    let cosine = phi * phi / 3f64.sqrt() / (1.0 + phi * phi).sqrt();
+    let inclined = (3f64.sqrt() * 5.0) * cosine;
+    measured("icosahedron.obj", "forall p in S { print length(area_round(p)); break; }", &[inclined]);
+}
+
+#[test]
+fn angles_and_what_follows_from_them() {
+    let of_first = |what: &str| format!("forall p in S {{ forall q, r in p {{ print {what}; break; }} break; }}");
+    measured("icosahedron.obj", &of_first("angle(q, p, r)"), &[std::f64::consts::FRAC_PI_3]);
+    measured("cube.obj", &of_first("angle(q, p, r)"), &[std::f64::consts::FRAC_PI_2]);
+    measured("icosahedron.obj", &of_first("cotangent(q, p, r)"), &[1.0 / 3f64.sqrt()]);
+    measured("icosahedron.obj", &of_first("edge_weight(p, q)"), &[1.0 / 3f64.sqrt()]);
+    measured("icosahedron.obj", &of_first("bend(p, q)"), &[(5f64.sqrt() / 3.0).acos()]);
+    measured("octahedron.obj", &of_first("bend(p, q)"), &[(1f64 / 3.0).acos()]);
+    // The angles of a triangle are half a turn.
+    let sum = "double off; forall f in faces S { double a; forall q, r in f a += angle(q, r, nextto r in f); \
+               off = max(off, abs(a - pi)); } print off;";
+    measured("tetrapod.obj", sum, &[0.0]);
+}
+
+/// Cotangents weigh so that a flat sheet is in balance, however it is cut into triangles; a hole counts nothing.
+#[test]
+fn edge_weights_are_in_balance_on_a_flat_sheet() {
+    let bent = "forall p in S p$pos += vec(0.3 * sin(5.0 * p$pos.z), 0, 0.2 * cos(3.0 * p$pos.x));";
+    let flat = "double off; forall p in S { vec sum; forall q in p sum += edge_weight(p, q) * (q$pos - p$pos); \
+                if (gaps p == 0) off = max(off, length(sum)); } print off;";
+    measured("grid-open.obj", &format!("{bent} {flat}"), &[0.0]);
+    let half = "forall p in S forall q in p if (p > q && nextto q in p == null) \
+                { vertex b = prevto q in p; print edge_weight(p, q) - cotangent(q, b, p) / 2.0; break; }";
+    let (_, printed) = outcome(&["geometry"], &format!("step {{ {half} }}"), &shipped("cube-open.obj"));
+    assert!(!printed.is_empty() && printed.iter().all(|x| x == "0"), "{printed:?}");
+}
+
+/// Faces come in an order in which a vertex has several fans on the way.
+#[test]
+fn a_mesh_is_built_again_from_its_faces_in_any_order() {
+    let text = "vertex { vertex twin; };
+        step {
+          mesh T;
+          forall v in S { vertex t; t$pos = v$pos; v$twin = t; add t to T; }
+          for (int k = 0; k < 7; ++k) {
+            int i = 0;
+            forall f in faces S {
+              i += 1;
+              if (i % 7 != k) continue;
+              ring g;
+              forall p in f add p$twin to g;
+              polygon(g);
+            }
+          }
+          S = T;
+        }";
+    for path in std::fs::read_dir(assets("meshes")).unwrap().map(|e| e.unwrap().path()).filter(|p| p.is_file()) {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let before = shipped(&name);
+        let (after, _) = outcome(&["build"], text, &before);
+        let first = before.vertex_count();
+        let (mut made, gaps) = surface(&after);
+        let old = |v: &mut Vertex| *v = Vertex::from_index(v.index() - first).unwrap();
+        if after.set.iter().all(|v| v.index() >= first) {
+            made.iter_mut().flatten().for_each(old);
+        }
+        if surface(&before).0.is_empty() {
+            continue; // a wire has no faces
+        }
+        assert_eq!((made, gaps), surface(&before), "{name}");
+    }
+}
+
+#[test]
+fn a_grid_has_the_squares_that_it_is_asked_for() {
+    for (m, n) in [(1, 1), (3, 2), (1, 5), (6, 4)] {
+        let text = format!(
+            "step {{ S = grid({m}, {n}); vec a; forall f in faces S a += area(f); \
+             int inner = 0; forall p in S inner += gaps p == 0 ? 1 : 0; print a, \" \", inner; }}"
+        );
+        let (mesh, printed) = outcome(&["build", "geometry"], &text, &Mesh::new());
+        assert_eq!(printed, [format!("(0, 0, {}) {}", m * n, (m - 1) * (n - 1))]);
+        let (faces, _) = surface(&mesh);
+        assert_eq!((mesh.set.len(), faces.len()), ((m + 1) * (n + 1), m * n));
+        assert!(faces.iter().all(|f| f.len() == 4));
+    }
+}
+
+/// With linear rules positions are what they would inherit; so a colour that begins as the position stays it.
+#[test]
+fn values_are_inherited_as_positions_are_refined_linearly() {
+    let mixed = "vertex { vec color = vec(7, 7, 7); };
+        void mix(vertex x, vertex q, double t) { x$color += t * (q$color - x$color); }
+        void step(mesh& S) {
+          forall p in S p$color = p$pos;
+          mesh old = S;
+          REFINED;
+          inherit(S, old);
+          double off = 0;
+          forall p in S off = max(off, distance(p$color, p$pos));
+          print off < 1e-12;
+        }";
+    let ptq = "vec vertex_point(vertex p) { return `p$pos; }
+        vec edge_point(vertex p, vertex q) { return (`p$pos + `q$pos) / 2; }";
+    let pqq = "vec vertex_point(vertex p) { return p$pos; }
+        vec edge_point(vertex p, vertex q, vertex l, vertex r) { return (p$pos + q$pos) / 2; }";
+    let kis = "static void refined(mesh& S) { mesh N; forall f in faces S add pyramid(f) to N; merge S with N; }";
+    for (file, rule, call, mesh) in [
+        ("ptq", ptq, "ptq(S)", "tetrapod.obj"),
+        ("ptq", ptq, "ptq(S)", "grid-open.obj"),
+        ("pqq", pqq, "pqq(S)", "dodecahedron.obj"),
+        ("pqq", pqq, "pqq(S)", "cube-open-quads.obj"),
+        ("split", "", "mesh E = split(S); merge S with E", "pawn.obj"),
+        ("edits", kis, "refined(S)", "elephant.obj"),
+    ] {
+        let text = format!("{rule}\n{}", mixed.replace("REFINED", call));
+        assert_eq!(outcome(&[file, "inherit"], &text, &shipped(mesh)).1, ["true"], "{file} on {mesh}");
+    }
+}
+
+/// Two components, of which one has nothing to inherit.
+#[test]
+fn what_has_no_known_neighbour_keeps_what_it_has() {
+    let text = "vertex { double heat = 5; };
+        void mix(vertex x, vertex q, double t) { x$heat += t * (q$heat - x$heat); }
+        void step(mesh& S) {
+          mesh known;
+          vertex a, b, c, d;
+          make {b, null} nb_of a; make {a, null, c, null} nb_of b; make {b, null} nb_of c;
+          add a to S; add b to S; add c to S; add d to S; add a to known;
+          a$heat = 1;
+          inherit(S, known);
+          print a$heat, b$heat, c$heat, d$heat;
+        }";
+    assert_eq!(outcome(&["inherit"], text, &Mesh::new()).1, ["1115"]);
+}
