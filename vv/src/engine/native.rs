@@ -12,8 +12,10 @@
 //! A stop is asked for at every round of a loop and at every call: a load and a branch that is never taken, one to two per
 //! cent of a step of the paper's Loop listing. Loops round one ring that only compute are over too soon to ask.
 
+mod ahead;
 mod context;
 mod effects;
+mod prefetch;
 mod pristine;
 mod run;
 mod translate;
@@ -21,11 +23,12 @@ mod translate;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use cranelift_codegen::Context as Compiler;
+use cranelift_codegen::control::ControlPlane;
 use cranelift_codegen::ir::{AbiParam, UserFuncName, types};
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
+use cranelift_module::{FuncId, Linkage, Module, ModuleReloc, default_libcall_names};
 
 use super::{Failure, FailureKind, Output, OutputClosed, Settings, interpret};
 use crate::diagnostic::Diagnostic;
@@ -205,7 +208,16 @@ fn new_module() -> Result<JITModule, Refused> {
 }
 
 fn define(module: &mut JITModule, id: FuncId, compiler: &mut Compiler) -> Result<(), Refused> {
-    module.define_function(id, compiler).map_err(|e| refused(format!("{e:?}")))?;
+    let code = compiler.compile(module.isa(), &mut ControlPlane::default()).map_err(|e| refused(format!("{e:?}")))?;
+    let alignment = u64::from(code.buffer.alignment);
+    let mut bytes = code.code_buffer().to_vec();
+    let marked = code.buffer.traps().iter().filter(|trap| trap.code == translate::PREFETCH);
+    for at in marked.map(|trap| trap.offset as usize).collect::<Vec<_>>() {
+        prefetch::put(&mut bytes, at).ok_or_else(|| refused("a load cannot become a prefetch"))?;
+    }
+    let relocations = code.buffer.relocs().to_vec();
+    let relocations: Vec<_> = relocations.iter().map(|r| ModuleReloc::from_mach_reloc(r, &compiler.func, id)).collect();
+    module.define_function_bytes(id, alignment, &bytes, &relocations).map_err(|e| refused(format!("{e:?}")))?;
     let frame = compiler.compiled_code().and_then(|c| c.buffer.frame_layout()).map_or(0, |f| f.frame_to_fp_offset);
     module.clear_context(compiler);
     if frame > MAX_FRAME { Err(refused("a function needs too much of the native stack")) } else { Ok(()) }

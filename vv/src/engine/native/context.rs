@@ -34,6 +34,8 @@ pub(super) struct Context {
     pub(super) edit_limit: u64,
     /// Whether rings may have gaps or values beside them: if not, compiled code may edit any. Once there are some it stays so.
     pub(super) gaps_or_edge_values: u64,
+    /// Whether the mesh is so large that compiled code asks for what it will touch, 0 or 1.
+    pub(super) asks_ahead: u64,
     pub(super) old_heads: *const Head,
     pub(super) old_slots: *const u32,
     pub(super) old_positions: *const f64,
@@ -87,6 +89,9 @@ pub(super) struct RawList {
 }
 
 pub(super) use crate::mesh::PADDING;
+
+/// Corners of faces are asked for when so many are still to be walked before, and so many more follow the last.
+pub(super) const CORNERS_AHEAD: usize = 64;
 
 /// Room for a ring of `len` slots that may grow: as many as are edited at once, see `edit_widths` of the translator.
 pub(super) fn room_for(len: u32) -> u32 {
@@ -199,6 +204,7 @@ offsets! {
     EDIT_LIMIT edit_limit
     GAPS_OR_EDGE_VALUES gaps_or_edge_values
     BEHIND behind
+    ASKS_AHEAD asks_ahead
     OLD_HEADS old_heads
     OLD_SLOTS old_slots
     OLD_POSITIONS old_positions

@@ -18,6 +18,9 @@
 //!   that its body may edit. The runtime reads only as many vertices as compiled code took from a list.
 //! - The arrays are not shared with another mesh while compiled code runs: [`own`] copies those that are.
 //! - A panic does not cross compiled frames: [`guard`] turns it into a status.
+//! - What is asked for early ([`super::ahead`]) is reached through heads of vertices that are clamped to those that have
+//!   one, null too, and slots within their rings; corners are read up to [`CORNERS_AHEAD`](super::context::CORNERS_AHEAD)
+//!   behind the last, where there are so many. The asking itself is a prefetch, which reads nothing.
 //! - The native stack is bounded: every compiled function that is called asks whether there is room left.
 #![expect(unsafe_code, reason = "compiled code and what it shares with the runtime; the argument stands above")]
 
@@ -57,6 +60,9 @@ const STACK: usize = 16 << 20;
 
 /// What the runtime's own functions may need of it.
 const RUNTIME_STACK: usize = 512 << 10;
+
+/// Meshes of so many vertices and more lie in no cache. Tests, whose meshes are small, ask ahead in all.
+const FAR: usize = if cfg!(debug_assertions) { 1 } else { 1 << 17 };
 
 /// How a run ended.
 pub(super) enum End {
@@ -240,6 +246,7 @@ pub(super) fn run(
         (*context).run = run_pointer.cast();
         (*context).this = context;
         (*context).stop = (*run_pointer).fixed.settings.stop.flag().as_ptr();
+        (*context).asks_ahead = u64::from((*run_pointer).mesh.vertex_count() >= FAR);
         (*context).offsets = std::array::from_fn(|i| 4 * i as u32);
         (*context).behind = std::array::from_fn(|i| if i < 16 { 0 } else { u32::MAX });
         (*context).max_depth = u64::from((*run_pointer).fixed.settings.limits.max_call_depth);

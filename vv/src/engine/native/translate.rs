@@ -5,6 +5,7 @@
 //! leaves its result in the context. Whatever is an error in the language jumps to one cold block that returns
 //! [`status::REPEAT`]: the interpreter then says what it was.
 
+mod ahead;
 mod builtin;
 mod call;
 mod edit;
@@ -34,6 +35,7 @@ use cranelift_module::{FuncId, Module};
 use rustc_hash::FxHashMap;
 
 use super::Mutation;
+use super::ahead::Touched;
 use super::context::{self, Layout, Memo, status};
 use super::effects::{Facts, Keeping};
 use super::run::Symbol;
@@ -41,6 +43,7 @@ use crate::ir::{Function, FunctionId, Passing, Program, Type};
 use crate::mesh;
 use crate::source::Span;
 
+pub(super) use ahead::PREFETCH;
 use known::{Bounds, Known};
 pub(super) use rare::between;
 
@@ -249,6 +252,8 @@ pub(super) struct Translator<'t, 'p> {
     /// How many lists.
     list_mark: Option<Value>,
     name: String,
+    /// What the loop over faces in hand touches of their vertices, until a loop over vertices asks for them.
+    corners: Touched,
     /// Nothing has been written to the mesh: the first statement of the run is being translated.
     pristine: bool,
 }
@@ -302,6 +307,7 @@ impl<'t, 'p> Translator<'t, 'p> {
             set_mark: None,
             list_mark: None,
             name: name.to_owned(),
+            corners: Touched::default(),
             pristine: false,
         }
     }

@@ -1,6 +1,6 @@
 //! Lists of vertices: variables of type ring, copies of rings that loops walk, faces.
 
-use super::super::context::{Context, PADDING};
+use super::super::context::{CORNERS_AHEAD, Context, PADDING};
 use super::{Run, guard, light, status, value_words, vertex};
 use crate::engine::text;
 use crate::mesh::faces::faces_of;
@@ -204,6 +204,8 @@ pub(super) extern "C" fn faces(context: *mut Context, set: u32) -> u64 {
         let members = &run.sets.get(set as usize)?.members;
         let faces = faces_of(&run.mesh, members, &run.fixed.settings.stop).ok()?;
         let (mut corners, ends) = faces.into_parts();
+        let last = corners.last().copied();
+        corners.extend(last.into_iter().flat_map(|v| std::iter::repeat_n(v, CORNERS_AHEAD)));
         corners.reserve(PADDING);
         let bounds = ends.as_ptr_range();
         let words = [corners.as_ptr().addr(), bounds.start.addr(), bounds.end.addr()];

@@ -7,6 +7,7 @@ use super::known::{Bounds, Fact, Found, Key};
 use super::ring::Source;
 use super::{Loop, Orbit, Storage, Symbol, Translated, Translator, Val, Walk, wrong_type};
 use crate::engine::native::Mutation;
+use crate::engine::native::ahead::{Ahead, Touched};
 use crate::engine::native::context;
 use crate::engine::native::effects::{Effects, Node, each, each_in};
 use crate::ir::{Expr, ExprKind, From, LocalId, Place, Ring, Stmt, StmtKind, Type};
@@ -120,7 +121,9 @@ impl<'p> Translator<'_, 'p> {
         let exit = self.b.create_block();
         let flags = self.regions.members;
         let rounds = Rounds { local, follower: None, first, end, begin: None, flags, gaps: true, brief: false, span };
-        self.walk(&rounds, Walk::Set(depth), exit, body, |_, _| {})?;
+        let ahead = Ahead::of_set(self.program, local, body);
+        let ask = |t: &mut Self, at| t.ask_ahead(&ahead, at, end, flags);
+        self.walk(&rounds, Walk::Set(depth), exit, body, ask, |_, _| {})?;
         self.continue_in(exit);
         self.call(Symbol::SetWalkEnd, &[depth]);
         Ok(())
@@ -176,7 +179,9 @@ impl<'p> Translator<'_, 'p> {
         let end = self.b.ins().iadd(first, bytes);
         self.forget(effects);
         let rounds = Rounds { local, follower, first, end, begin, flags, gaps, brief: only_computes(body), span };
-        self.walk(&rounds, walk, exit, body, |t, sides| {
+        let corners = if orbit && begin.is_none() { std::mem::take(&mut self.corners) } else { Touched::default() };
+        let ask = |t: &mut Self, at| t.ask_for_corners(corners, at, flags);
+        self.walk(&rounds, walk, exit, body, ask, |t, sides| {
             if let Source::Of { v, .. } = source {
                 for &(x, _) in sides {
                     t.known.learn_that_differ(x, v);
@@ -288,7 +293,9 @@ impl<'p> Translator<'_, 'p> {
             *storage = Storage::Face(Bounds { start, len, flags }, Orbit::Yes);
         }
         self.frame_mut()?.loops.push(Loop { next, exit, walk: Walk::Faces(depth) });
+        let before = std::mem::replace(&mut self.corners, Ahead::of_faces(self.program, local, body).corners);
         let goes_on = self.block(body)?;
+        self.corners = before;
         self.frame_mut()?.loops.pop();
         if goes_on {
             self.b.ins().jump(next, &[]);
@@ -304,13 +311,14 @@ impl<'p> Translator<'_, 'p> {
         Ok(())
     }
 
-    /// Goes through vertices. `learn` is told each with its address, and the follower with its own.
+    /// Goes through vertices. `ask` begins each round, with its address; `learn` is told each with its address, and the follower with its own.
     fn walk(
         &mut self,
         rounds: &Rounds,
         walk: Walk,
         exit: Block,
         body: &'p [Stmt],
+        ask: impl FnOnce(&mut Self, Value),
         learn: impl FnOnce(&mut Self, &[(Value, Value)]),
     ) -> Translated<()> {
         let &Rounds { local, follower, first, end, begin, flags, gaps, brief, span } = rounds;
@@ -322,6 +330,7 @@ impl<'p> Translator<'_, 'p> {
         self.b.ins().brif(empty, exit, &[], round, &[begin_at.into()]);
         self.b.switch_to_block(round);
         self.known.enter();
+        ask(self, at);
         let v = self.walked_vertex(at, flags, gaps, next);
         let mut sides = vec![(v, at)];
         if follower.is_some() {
