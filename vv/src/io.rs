@@ -22,6 +22,7 @@ mod ply;
 mod stl;
 mod weld;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::io::Write;
 
@@ -31,7 +32,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::mesh::build::{self, BuildError};
 use crate::mesh::faces::Faces;
 use crate::mesh::triangulate::{Triangulator, newell};
-use crate::mesh::{Mesh, Vertex};
+use crate::mesh::{Mesh, Property, Vertex};
 use crate::stop::{Stop, Stopped};
 
 pub use color::COLOR;
@@ -317,6 +318,21 @@ fn for_each_triangle(mesh: &Mesh, faces: &Faces, mut each: impl FnMut([Vertex; 3
         triangulator.triangles(&points, newell(&points), &mut triangles);
         triangles.iter().for_each(|t| each(t.map(|i| face[i as usize])));
     }
+}
+
+/// Leaves of properties with one name the first, with a warning: a file may have `v` and `v_x`, `v_y`, `v_z`, which are
+/// `v` as well.
+fn first_of_each(properties: &mut Vec<Property>, of: &str) -> Vec<Diagnostic> {
+    let mut known = BTreeSet::new();
+    let mut warnings = Vec::new();
+    properties.retain(|property| {
+        let is_first = known.insert(property.name.clone());
+        if !is_first {
+            warnings.push(warning(format!("{of} has two properties `{}`; only the first is read", property.name)));
+        }
+        is_first
+    });
+    warnings
 }
 
 /// Whether a name can stand after `$` in a program; others are not kept.

@@ -96,7 +96,12 @@ fn quoted(error: &FileError) -> Option<(Diagnostic, Sources)> {
     // Only a file gives the same again; a pipe would keep us waiting.
     fs::metadata(&error.path).ok().filter(|m| m.is_file() && m.len() <= MOST_QUOTED)?;
     let bytes = fs::read(&error.path).ok()?;
-    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    let text = String::from_utf8_lossy(bytes).into_owned();
+    // Lines that end by CR alone are none in a quotation.
+    if text.replace("\r\n", "").contains('\r') {
+        return None;
+    }
     let quote = text.split_inclusive('\n').nth(line)?;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
     let end = start + quote.trim_end().len();

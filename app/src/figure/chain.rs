@@ -5,6 +5,9 @@ use super::page::{At, Path};
 /// More lines than this at one point are left as they are.
 const MOST_AT_A_POINT: usize = 64;
 
+/// Of so many points in a row one stays, straight or not: each is looked at again with every one that follows.
+const MOST_IN_A_ROW: usize = 256;
+
 /// How far a point may lie from the line that leaves it out, in hundredths of a point: what rounding may move it.
 const STRAIGHT: f64 = 0.75;
 
@@ -85,7 +88,7 @@ fn straightened(path: Path) -> Path {
     let mut kept = vec![points[0]];
     let mut anchor = 0;
     for i in 1..points.len() - 1 {
-        if !is_straight(&points[anchor..i + 2]) {
+        if i + 1 - anchor > MOST_IN_A_ROW || !is_straight(&points[anchor..i + 2]) {
             kept.push(points[i]);
             anchor = i;
         }
@@ -142,6 +145,13 @@ mod tests {
         let pieces: Vec<_> = (0..20).map(|i| [at(i), at(i + 1)]).collect();
         let points: Vec<_> = (0..=20).map(at).collect();
         check(&pieces, &[(&points, false)]);
+    }
+
+    #[test]
+    fn a_long_straight_line_takes_no_longer_than_a_bent_one() {
+        let pieces = (0..200_000).map(|i| [At { x: i, y: 0 }, At { x: i + 1, y: 0 }]).collect();
+        let paths = chain(pieces);
+        assert_eq!((paths.len(), paths[0].points.len()), (1, 200_000 / MOST_IN_A_ROW + 2));
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use vv::io::SHARPNESS;
 use vv::mesh::{Mesh, Value};
 
 use super::Class;
@@ -30,9 +31,6 @@ pub(super) struct Edge {
     pub whole: [u32; 2],
     pub class: Class,
 }
-
-/// Name of the edge property that makes creases.
-const SHARPNESS: &str = "sharpness";
 
 /// Everything, clipped.
 #[derive(Debug, Default)]
@@ -114,7 +112,11 @@ impl Surface {
         let sharpness = mesh.edge_properties().iter().position(|property| property.name == SHARPNESS);
         let is_crease = |ends: [u32; 2]| {
             let [Some(p), Some(q)] = ends.map(|end| part.vertex(end)) else { return false };
-            matches!(sharpness.and_then(|s| mesh.edge_value(s, p, q)), Some(Value::Double(x)) if x > 0.0)
+            match sharpness.and_then(|s| mesh.edge_value(s, p, q)) {
+                Some(Value::Double(x)) => x > 0.0,
+                Some(Value::Int(x)) => x > 0,
+                _ => false,
+            }
         };
         for (number, &ends) in (0..).zip(&part.edges) {
             let ends = ordered(ends);

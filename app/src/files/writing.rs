@@ -138,7 +138,10 @@ impl Temporary {
 impl Drop for Temporary {
     fn drop(&mut self) {
         if let Some(file) = self.0.take() {
-            temporaries().remove(file.path());
+            // Held until the file is gone, which nobody else knows of then.
+            let mut temporaries = temporaries();
+            temporaries.remove(file.path());
+            drop(file);
         }
     }
 }

@@ -276,8 +276,8 @@ fn class_index(class: TokenClass) -> Option<u32> {
 pub fn tokens(documents: &Documents, document: &Document) -> SemanticTokensResult {
     let text = &*document.text;
     let mut data = Vec::new();
-    // Line and column of the token before; lines are counted on the way.
-    let (mut line, mut column, mut from, mut line_start) = (0, 0, 0, 0);
+    // Lines since the token before and its column in this one, and how far the text was looked at: byte and column.
+    let (mut line, mut column, mut from, mut here) = (0, 0, 0, 0);
     for (range, class) in highlight(text) {
         let Some(token_type) = class_index(class) else { continue };
         // A token stands in one line.
@@ -285,13 +285,11 @@ pub fn tokens(documents: &Documents, document: &Document) -> SemanticTokensResul
         for part in text[range].split_inclusive('\n') {
             let stretch = part.trim_end_matches(['\n', '\r']);
             let skipped = &text[from..start];
-            let lines = skipped.bytes().filter(|&b| b == b'\n').count() as u32;
-            if let Some(end) = skipped.rfind('\n') {
-                line_start = from + end + 1;
-                column = 0;
+            line += skipped.bytes().filter(|&b| b == b'\n').count() as u32;
+            match skipped.rfind('\n') {
+                Some(end) => (column, here) = (0, documents.encoding.length(&skipped[end + 1..])),
+                None => here += documents.encoding.length(skipped),
             }
-            line += lines;
-            let here = documents.encoding.length(&text[line_start..start]);
             let length = documents.encoding.length(stretch);
             if length > 0 {
                 data.push(SemanticToken {
@@ -308,4 +306,44 @@ pub fn tokens(documents: &Documents, document: &Document) -> SemanticTokensResul
         }
     }
     SemanticTokensResult::Tokens(SemanticTokens { result_id: None, data })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::commands::lsp::places::Encoding;
+    use lsp_types::{DidOpenTextDocumentParams, TextDocumentItem};
+    use std::str::FromStr as _;
+
+    /// Line, column and length of each token.
+    #[track_caller]
+    fn check(text: &str, expected: &[(u32, u32, u32)]) {
+        let uri = Uri::from_str("untitled:a").unwrap();
+        let mut documents = Documents::new(Encoding::Utf16);
+        let text_document = TextDocumentItem::new(uri.clone(), "vv".to_owned(), 1, text.to_owned());
+        documents.open(DidOpenTextDocumentParams { text_document });
+        let SemanticTokensResult::Tokens(tokens) = tokens(&documents, documents.get(&uri).unwrap()) else {
+            panic!("these are all of them")
+        };
+        let (mut line, mut column) = (0, 0);
+        let place = |token: SemanticToken| {
+            column = if token.delta_line > 0 { token.delta_start } else { column + token.delta_start };
+            line += token.delta_line;
+            (line, column, token.length)
+        };
+        assert_eq!(tokens.data.into_iter().map(place).collect::<Vec<_>>(), expected);
+    }
+
+    #[test]
+    fn tokens_stand_where_editors_count_them() {
+        check("int a;\n\n  int τ𝄞; b", &[(0, 0, 3), (0, 4, 1), (2, 2, 3), (2, 6, 1), (2, 11, 1)]);
+        check("/* τ\n𝄞 */ int\r\n  a", &[(0, 0, 4), (1, 0, 5), (1, 6, 3), (2, 2, 1)]);
+    }
+
+    /// Nor does it take longer than many lines.
+    #[test]
+    fn a_line_may_have_very_many_tokens() {
+        let expected: Vec<_> = (0..100_000).map(|i| (0, 2 * i, 1)).collect();
+        check(&"1 ".repeat(100_000), &expected);
+    }
 }

@@ -26,8 +26,8 @@ const GROWTHS: usize = 4;
 /// Pixels of a PNG picture for each point: 300 per inch.
 const PIXELS_PER_POINT: f64 = 300.0 / 72.0;
 
-/// Most pixels along a side.
-const MOST_PIXELS: f64 = 30_000.0;
+/// Most pixels along a side: a gigabyte for a square.
+const MOST_PIXELS: f64 = 16_384.0;
 
 /// What to draw, and how large.
 #[derive(Debug, Args)]

@@ -1,5 +1,6 @@
 //! What `vv run` runs: every input with every combination of values.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use app::files;
@@ -80,8 +81,9 @@ fn each(name: &str, text: &str, ty: Option<Type>) -> Result<Vec<String>, Box<Dia
         if values.iter().any(String::is_empty) {
             return Err(Box::new(error(format!("`-D {name}={text}`: a value is missing beside a comma"))));
         }
-        if let Some(i) = (1..values.len()).find(|&i| values[..i].contains(&values[i])) {
-            return Err(Box::new(error(format!("`-D {name}={text}`: the value {} stands there twice", values[i]))));
+        let mut known = BTreeSet::new();
+        if let Some(twice) = values.iter().find(|value| !known.insert(*value)) {
+            return Err(Box::new(error(format!("`-D {name}={text}`: the value {twice} stands there twice"))));
         }
         return Ok(values);
     }
@@ -97,11 +99,14 @@ fn each(name: &str, text: &str, ty: Option<Type>) -> Result<Vec<String>, Box<Dia
     let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(wrong);
     let (from, to) = (number(from)?, number(to)?);
     let count = count.parse().ok().filter(|count| (2..=MOST).contains(count)).ok_or_else(wrong)?;
-    let value = |i: usize| {
+    let between = |i: usize| {
         let t = i as f64 / (count - 1) as f64;
         plain(from * (1.0 - t) + to * t)
     };
-    Ok((0..count).map(value).collect())
+    // What was given is meant, however many digits it has.
+    let end = |text: &str, x: f64| Some(plain(x)).filter(|plain| plain.parse() == Ok(x)).unwrap_or(text.to_owned());
+    let inner = (1..count - 1).map(between);
+    Ok([end(parts[0], from)].into_iter().chain(inner).chain([end(parts[1], to)]).collect())
 }
 
 /// Twelve digits, without those that only rounding made.
@@ -140,6 +145,9 @@ mod tests {
         check("0.1:0.4:4", Type::Double, &["0.1", "0.2", "0.3", "0.4"]);
         check("1:-1:3", Type::Double, &["1", "0", "-1"]);
         check("2:6:3", Type::Int, &["2", "4", "6"]);
+        check("2.0:6e0:3", Type::Int, &["2", "4", "6"]);
+        check("0.123456789012345:1:2", Type::Double, &["0.123456789012345", "1"]);
+        check("9007199254740993:9007199254740995:2", Type::Int, &["9007199254740993", "9007199254740995"]);
         for wrong in ["0:1", "0:1:1", "0:1:x", "a:1:3", "0:inf:3", "0:1:2:3", "0:1:99999"] {
             assert!(each("p", wrong, Some(Type::Double)).is_err(), "{wrong}");
         }

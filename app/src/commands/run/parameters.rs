@@ -1,5 +1,6 @@
 //! `-D name=value`
 
+use app::worker::fits;
 use glam::DVec3;
 use vv::diagnostic::Diagnostic;
 use vv::ir::{GlobalId, Program};
@@ -30,7 +31,7 @@ pub fn values(program: &Program, definitions: &[(String, String)]) -> Result<Vec
             Box::new(error(message).evidence(format!("its default is {}", shown(param.default))))
         })?;
         if let Some((low, high)) = param.range
-            && !(number(low)..=number(high)).contains(&number(value))
+            && !fits(global, param, value)
         {
             let (low, high) = (shown(low), shown(high));
             let message = format!("`-D {name}={text}`: the parameter `{name}` must lie in [{low}, {high}]");
@@ -79,15 +80,6 @@ fn parse(text: &str, ty: Type) -> Result<Value, &'static str> {
     }
 }
 
-/// For comparing with a range; only numbers have one.
-fn number(value: Value) -> f64 {
-    match value {
-        Value::Int(i) => i as f64,
-        Value::Double(x) => x,
-        Value::Bool(_) | Value::Vec(_) | Value::Vertex(_) => 0.0,
-    }
-}
-
 fn shown(value: Value) -> String {
     match value {
         Value::Bool(b) => b.to_string(),
@@ -118,6 +110,17 @@ mod tests {
         ] {
             assert_eq!(parse(text, ty), expected, "{text}");
         }
+    }
+
+    #[test]
+    fn a_range_holds_to_the_last_unit() {
+        let text = "param int n = 0 in [0, 9007199254740992];\nvoid step(mesh& S) { }\n";
+        let program = vv::compile("n.vv", text, &mut |_, _| Err(String::new())).program.unwrap();
+        let check =
+            |value: &str| values(&program, &[("n".to_owned(), value.to_owned())]).map(drop).map_err(|d| d.message);
+        assert_eq!(check("9007199254740992"), Ok(()));
+        let refused = "`-D n=9007199254740993`: the parameter `n` must lie in [0, 9007199254740992]";
+        assert_eq!(check("9007199254740993"), Err(refused.to_owned()));
     }
 
     #[test]

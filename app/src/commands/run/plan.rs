@@ -74,6 +74,8 @@ pub struct Plan {
     frames: Option<u32>,
     /// Pictures of several runs or generations.
     sheets: Vec<Sheet>,
+    /// The numbers of the runs and the generations that are on one of them.
+    on_sheets: BTreeSet<(usize, u64)>,
 }
 
 /// A picture of several runs or generations.
@@ -129,10 +131,13 @@ impl Plan {
             by_generation,
             frames: given.frames,
             sheets: Vec::new(),
+            on_sheets: BTreeSet::new(),
         };
         plan.check_size()?;
         plan.check_places()?;
         plan.sheets = plan.outputs.iter().flat_map(|(name, target)| plan.sheets_of(name, target)).collect();
+        let tiles = plan.sheets.iter().flat_map(|sheet| &sheet.tiles);
+        plan.on_sheets = tiles.map(|tile| (tile.case, tile.generation)).collect();
         plan.check_names()?;
         Ok(plan)
     }
@@ -215,8 +220,7 @@ impl Plan {
 
     /// Whether a generation of a run is on one of them.
     pub fn is_on_sheet(&self, case: &Case, generation: u64) -> bool {
-        let shows = |tile: &Tile| tile.case == case.index && tile.generation == generation;
-        self.sheets.iter().any(|sheet| sheet.tiles.iter().any(shows))
+        self.on_sheets.contains(&(case.index, generation))
     }
 
     /// Whether a generation is written: each one that is asked for if the name has a place for it, or if pictures of

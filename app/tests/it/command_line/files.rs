@@ -83,6 +83,16 @@ fn an_error_in_a_mesh_quotes_its_line() {
     assert!(ended.code == Some(3) && ended.stderr.contains("<stdin>:6:7: "), "{}", ended.stderr);
 }
 
+/// Of lines that end as on old machines others than those of a quotation have the numbers: none is better than a wrong one.
+#[test]
+fn only_the_line_that_is_meant_is_quoted() {
+    let mark = check_file("bom.obj", "\u{feff}v 0 x 0\n", "mesh info bom.obj", 3, "bom.obj:1:5\n │ v 0 x 0\n");
+    assert!(!mark.stderr.contains('\u{feff}'), "{}", mark.stderr);
+    let text = "# a\rv 0 0 0\nv 1 x 0\nv 0 1 0\n";
+    let old = check_file("old.obj", text, "mesh info old.obj", 3, "error: old.obj:3:5: `x` is not a number");
+    assert!(!old.stderr.contains("v 0 1 0"), "{}", old.stderr);
+}
+
 #[test]
 fn a_mesh_without_extension_is_known_by_its_first_word() {
     check_file("square", SQUARE, "mesh info square", 0, "");

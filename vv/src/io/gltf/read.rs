@@ -6,7 +6,7 @@ use glam::{DMat4, DQuat, DVec3};
 
 use super::super::color::Colors;
 use super::super::weld::weld;
-use super::super::{Place, ReadError, invalid, is_name, note, warning};
+use super::super::{Place, ReadError, first_of_each, invalid, is_name, note, warning};
 use super::accessor::{Data, Rows, lower, whole};
 use super::document::{Document, Node, Primitive};
 use super::{BIN, COLOR, JSON, MAGIC, POSITION, VERSION, is_glb, to_srgb};
@@ -24,7 +24,7 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
     let document: Document = serde_json::from_slice(json).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
-        let line = u32::try_from(error.line()).ok().filter(|&line| line > 0 && blob.is_none());
+        let line = u32::try_from(error.line()).ok().filter(|&line| line > 0 && !is_glb(bytes));
         let column = u32::try_from(error.column()).ok().filter(|&column| column > 0);
         invalid(line.map(|line| Place::Text { line, column }), format!("this is no glTF: {}", lower(message)))
     })?;
@@ -273,6 +273,7 @@ impl<'a> Scene<'a> {
             };
             polygons.values.vertices.push(Property { name, default: Value::zero(values.ty()), values });
         }
+        diagnostics.extend(first_of_each(&mut polygons.values.vertices, "the scene"));
         Ok((polygons, diagnostics))
     }
 }

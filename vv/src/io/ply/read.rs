@@ -1,12 +1,10 @@
 //! Rows to polygons and named values.
 
-use std::collections::BTreeSet;
-
 use glam::DVec3;
 
 use super::super::color::Colors;
 use super::super::lines::{Words, any_number, integer, show};
-use super::super::{Place, ReadError, invalid, is_name, note, warning};
+use super::super::{Place, ReadError, first_of_each, invalid, is_name, note, warning};
 use super::header::{Element, header};
 use super::{Encoding, Scalar};
 use crate::diagnostic::Diagnostic;
@@ -38,7 +36,7 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
                 positions = table.positions();
                 values.vertices.extend(table.colors(element));
                 values.vertices.extend(table.properties(&mut ignored));
-                diagnostics.extend(first_of_each(&mut values.vertices, element));
+                diagnostics.extend(first_of_each(&mut values.vertices, &show(element.name)));
             }
             b"face" => faces.read(&mut source, element, vertices.count, stop)?,
             b"tristrips" => faces.read_strips(&mut source, element, vertices.count, stop)?,
@@ -46,14 +44,14 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
                 let mut table = Table::read(&mut source, element, stop)?;
                 let ends = table.ends(element, vertices.count)?;
                 let mut named = table.properties(&mut ignored);
-                diagnostics.extend(first_of_each(&mut named, element));
+                diagnostics.extend(first_of_each(&mut named, &show(element.name)));
                 let of_edges = |p: Property| EdgeValues { name: p.name, ends: ends.clone(), values: p.values };
                 values.edges.extend(named.into_iter().map(of_edges));
             }
             b"mesh" => {
                 let table = Table::read(&mut source, element, stop)?;
                 let mut named = table.properties(&mut ignored);
-                diagnostics.extend(first_of_each(&mut named, element));
+                diagnostics.extend(first_of_each(&mut named, &show(element.name)));
                 values.mesh.extend(named.into_iter().filter_map(|p| Some((p.name, p.values.get(0)?))));
             }
             _ => {
@@ -324,22 +322,6 @@ impl<'a> Table<'a> {
         }
         properties
     }
-}
-
-/// Leaves of properties with one name the first, with a warning: columns `v` and `v_x`, `v_y`, `v_z` are both `v`.
-fn first_of_each(properties: &mut Vec<Property>, element: &Element<'_>) -> Vec<Diagnostic> {
-    let mut known = BTreeSet::new();
-    let mut warnings = Vec::new();
-    properties.retain(|property| {
-        let is_first = known.insert(property.name.clone());
-        if !is_first {
-            let message =
-                format!("{} has two properties `{}`; only the first is read", show(element.name), property.name);
-            warnings.push(warning(message));
-        }
-        is_first
-    });
-    warnings
 }
 
 fn vectors(x: &[f64], y: &[f64], z: &[f64]) -> Vec<DVec3> {

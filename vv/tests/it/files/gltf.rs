@@ -67,6 +67,13 @@ fn a_triangle_with_colours_is_read() {
 }
 
 #[test]
+fn colours_stand_for_the_property_of_their_name() {
+    let with_other = |d: &mut Json| d["meshes"][0]["primitives"][0]["attributes"]["_color"] = json!(0);
+    check(with_other, "1 2 3\nWarning: the scene has two properties `color`; only the first is read");
+    check_values(&changed(with_other), Format::Gltf, "color: (1 0 0) (0 1 0) (0 0 1)");
+}
+
+#[test]
 fn nodes_place_and_mirror() {
     let moved = positions(|d| d["nodes"][0]["translation"] = json!([1, 2, 3]));
     assert_eq!(moved, [[1.0, 2.0, 3.0], [2.0, 2.0, 3.0], [1.0, 3.0, 3.0]]);
@@ -220,6 +227,9 @@ fn glb_chunks_are_checked() {
     assert!(message.ends_with("a chunk reaches beyond the end of the file"), "{message}");
     assert_eq!(outcome(&glb[..6], Format::Glb, false), "error at byte 6: the file ends within its header");
     assert_eq!(outcome(&glb[..12], Format::Glb, false), "error at byte 12: the file has no chunk of JSON");
+    // Its text has no lines that anybody sees.
+    let text = [b"glTF\x02\0\0\0\x18\0\0\0\x04\0\0\0JSON".as_slice(), b"{ x "].concat();
+    assert_eq!(outcome(&text, Format::Glb, false), "error: this is no glTF: key must be a string");
     let mut old = glb;
     old[4] = 1;
     assert_eq!(outcome(&old, Format::Glb, false), "error at byte 4: this is GLB of version 1, and vv reads 2");
