@@ -76,7 +76,7 @@ mutations! {
     DoubleToIntRounds EditsMoveNothing EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IgnoresGaps IgnoresRoom IsInRingInverted
     IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
     NotDoesNothing OldIsAsItCame OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
-    ReplacesNothing ReturnsEarlier SplicesOnTheOtherSide StandsBesideItself StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
+    ReplacesNothing ReturnsEarlier SmallerIsLarger SplicesOnTheOtherSide StandsBesideItself StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
 }
 
 /// A compiled program.

@@ -36,6 +36,8 @@ pub(super) struct Context {
     pub(super) gaps_or_edge_values: u64,
     /// Whether the mesh is so large that compiled code asks for what it will touch, 0 or 1.
     pub(super) asks_ahead: u64,
+    /// By how many slots a ring may be edited that has at most so many: as many, and 0 where that has to be asked first.
+    pub(super) edit_within: [u32; 18],
     pub(super) old_heads: *const Head,
     pub(super) old_slots: *const u32,
     pub(super) old_positions: *const f64,
@@ -203,6 +205,7 @@ offsets! {
     HAS_EDGE_VALUES has_edge_values
     EDIT_LIMIT edit_limit
     GAPS_OR_EDGE_VALUES gaps_or_edge_values
+    EDIT_WITHIN edit_within
     BEHIND behind
     ASKS_AHEAD asks_ahead
     OLD_HEADS old_heads

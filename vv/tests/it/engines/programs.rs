@@ -230,6 +230,14 @@ pub const NEW: [&[&str]; 2] = [
         "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; \
          for (int i = 0; i < 20; i++) { vertex z; splice z after n in x; print nextto z in x, prevto n in x; n = z; } \
          forall q in x { erase q from x; print valence x; forall r in x print r; } forall q in y print q;",
+        "forall p in a { vertex q = nextto p in a; print p < c || q < c, p < c && q < c, p > c || q > c, p > c && q > c; }",
+        "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; splice null after b in a; \
+         for (int i = 0; i < 20; i++) { vertex z; splice z after n in x; if (i % 3) splice z before b in a; n = z; } \
+         forall q in x { if (q == a) continue; erase q from x; erase q from a; splice q after c in a; print prevto q in a; } forall q in a print q;",
+        "vertex x; make {a, b, c} nb_of x; erase c from x; splice c after a in x; erase b from x; splice b before c in x; \
+         erase a from x; splice a after b in x; forall q in x print q, nextto q in x, prevto q in x;",
+        "synchronize S; forall q in `a { vertex d = nextto q in `a, x; make {a, q, d} nb_of x; splice x after q in d; \
+         print nextto q in `a, prevto q in `a, any in x; }",
         "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; \
          for (int i = 0; i < 20; i++) { vertex z; splice z before n in x; n = i % 2 ? z : n; } forall q in x print q; \
          while (valence x) { vertex q = any in x; q = nextto q in x; q = nextto q in x; erase q from x; print q; } \

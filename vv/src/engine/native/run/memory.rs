@@ -60,7 +60,9 @@ impl Run<'_> {
         unsafe {
             (*self.context).has_edge_values = u64::from(has_edge_values);
             (*self.context).edit_limit = if has_edge_values { 0 } else { u64::MAX };
+            (*self.context).edit_within = std::array::from_fn(|i| i as u32);
         }
+        // Of the new arrays: that has them at hand for the run, which else waits for many that were written and left.
         let has_gap = |head: &Head| self.mesh.slots()[head.range()].last() == Some(&None);
         if has_edge_values || self.fixed.edits && self.mesh.heads().iter().any(has_gap) {
             self.note_gaps_or_edge_values();
@@ -71,7 +73,10 @@ impl Run<'_> {
     /// From now on compiled code asks whether rings have gaps or values beside them.
     pub(super) fn note_gaps_or_edge_values(&mut self) {
         // SAFETY: the context is valid, and compiled code does not run.
-        unsafe { (*self.context).gaps_or_edge_values = 1 };
+        unsafe {
+            (*self.context).gaps_or_edge_values = 1;
+            (*self.context).edit_within = [0; _];
+        };
     }
 
     /// Takes the arrays back from compiled code: their lengths become what it has written.
@@ -283,19 +288,38 @@ pub(super) extern "C" fn grow_slots(context: *mut Context, more: u64) -> u32 {
 }
 
 /// The rings of a mesh, one after the other in order, each with room for at least twice as many vertices: a program that
-/// splices into most of them then moves none.
+/// splices into most of them then moves none. `slots` are as many as they take, and [`PADDING`].
 fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>, Column<Option<Vertex>>) {
     let mut heads: Vec<Head> = spare(vertices);
     let mut arena: Vec<Option<Vertex>> = spare(slots);
     for head in mesh.heads() {
         let ring = mesh.slots().get(head.range()).unwrap_or(&[]);
         let capacity = room_for(2 * head.len);
-        heads.push(Head { offset: arena.len() as u32, len: head.len, capacity });
-        arena.extend_from_slice(ring);
-        arena.resize(arena.len() + capacity as usize - ring.len(), None);
+        let offset = arena.len();
+        heads.push(Head { offset: offset as u32, len: head.len, capacity });
+        if let Some(few) = mesh.slots().get(head.offset as usize..).and_then(<[_]>::first_chunk::<FEW>)
+            && capacity as usize <= 2 * FEW
+            && offset + 2 * FEW <= arena.capacity()
+        {
+            // Most rings are short; a copy of known length is a few instructions.
+            let kept: [_; FEW] = std::array::from_fn(|i| if i < head.len as usize { few[i] } else { None });
+            // SAFETY: there is room for all of them, and the length counts those that were written.
+            unsafe {
+                let to = arena.as_mut_ptr().add(offset).cast::<[Option<Vertex>; FEW]>();
+                to.write_unaligned(kept);
+                to.add(1).write_unaligned([None; FEW]);
+                arena.set_len(offset + capacity as usize);
+            }
+        } else {
+            arena.extend_from_slice(ring);
+            arena.resize(offset + capacity as usize, None);
+        }
     }
     (heads.into(), arena.into())
 }
+
+/// Slots of rings that are copied at once.
+const FEW: usize = 8;
 
 /// Makes an array unshared, with room for so many elements.
 fn own_column<T: Copy + Send>(column: &mut Column<T>, capacity: usize) {

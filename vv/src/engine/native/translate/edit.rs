@@ -18,6 +18,24 @@ pub(super) struct Ways {
     pub(super) done: Block,
 }
 
+/// Which slots are looked through for what may be in a ring already.
+#[derive(Debug, Clone, Copy)]
+enum Held {
+    /// So many: those behind are another ring's.
+    Up(Value),
+    /// All of so many, whatever the ring's length: behind its end lies what once was in it, which is hardly ever met, and
+    /// then the runtime asks again.
+    All(i64),
+}
+
+/// What lies behind the end of a ring in the slots that are edited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Behind {
+    /// Room of its own.
+    Room,
+    Others,
+}
+
 impl<'p> Translator<'_, 'p> {
     /// What is put into a ring: `None` where the word `null` is written.
     pub(super) fn put(&mut self, item: &'p Item) -> Translated<Option<Value>> {
@@ -61,7 +79,6 @@ impl<'p> Translator<'_, 'p> {
     /// Puts a vertex in the place of another.
     fn replace_in_place(&mut self, a: Value, x: Value, v: Value, Ways { slow, done }: Ways) {
         let Bounds { start, len, flags } = self.bounds(v, false);
-        let bytes = self.bytes_of(len);
         if let Some(Fact::Found(was)) = self.known.get(Key::Find { x: a, v, old: true })
             && was.certain
             && self.known.is_absent(x, v)
@@ -71,8 +88,8 @@ impl<'p> Translator<'_, 'p> {
         }
         self.by_width(self.widths(), len, 0, slow, |t, width| {
             let lanes = t.lanes(start, width, flags);
-            let at = t.place_to_edit(&lanes, a, v, bytes, Ways { slow, done });
-            t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
+            let at = t.place_to_edit(&lanes, a, v, len, done);
+            t.leave_unless_it_may_enter(&lanes, x, v, Held::Up(len), slow);
             if !t.mutated(Mutation::ReplacesNothing) {
                 // Stores as wide as the loads that will follow, for narrow ones would hold those up.
                 let place = t.lanes_of_offset(at);
@@ -108,30 +125,29 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(search);
     }
 
-    /// Where `a` stands in the ring of `v`, of so many bytes, which begins with the lanes; on to `done` if it does not, or to
-    /// `slow` if it may stand behind them.
-    fn place_to_edit(&mut self, lanes: &[Value], a: Value, v: Value, bytes: Value, Ways { slow, done }: Ways) -> Value {
+    /// Where `a` stands in the ring of `v`, all of whose slots are in the lanes, bytes from its start; on to `done` if it does
+    /// not.
+    fn place_to_edit(&mut self, lanes: &[Value], a: Value, v: Value, len: Value, done: Block) -> Value {
         if let Some(at) = self.known.place(a, v) {
             return at;
         }
-        let at = self.first_match(lanes, a);
-        let missing = self.b.create_block();
-        self.b.set_cold_block(missing);
-        let absent = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, at, bytes);
-        let next = self.b.create_block();
-        self.b.ins().brif(absent, missing, &[], next, &[]);
-        self.continue_in(missing);
-        let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, bytes, 16 * lanes.len() as i64);
-        self.b.ins().brif(long, slow, &[], done, &[]);
-        self.continue_in(next);
-        at
+        let first = self.first_match(lanes, a);
+        let absent = self.is_beyond(first, len);
+        self.leave_if(absent, done);
+        self.bytes_before(first)
     }
 
     /// Goes to `slow` where `x` is null, stands in the ring of `v` already, or is `v` itself.
-    fn leave_unless_it_may_enter(&mut self, lanes: &[Value], x: Value, bytes: Value, v: Value, slow: Block) {
+    fn leave_unless_it_may_enter(&mut self, lanes: &[Value], x: Value, v: Value, held: Held, slow: Block) {
         if !self.known.is_absent(x, v) {
-            let at = self.first_match(lanes, x);
-            let twice = self.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes);
+            let twice = match held {
+                Held::Up(len) => {
+                    let first = self.first_match(lanes, x);
+                    let beyond = self.is_beyond(first, len);
+                    self.b.ins().icmp_imm_s(IntCC::Equal, beyond, 0)
+                }
+                Held::All(width) => self.is_among_first(lanes, x, width),
+            };
             self.leave_if(twice, slow);
         }
         if !self.known.differ(x, v) {
@@ -167,23 +183,21 @@ impl<'p> Translator<'_, 'p> {
         Ok(())
     }
 
-    /// Splices a vertex into a ring without gaps, which moves to twice the room if it has none left.
+    /// Splices a vertex into a ring without gaps that has room.
     fn splice_in_place(&mut self, x: Value, side: Side, a: Value, v: Value, ways: Ways) {
         let Ways { slow, done } = ways;
-        let Bounds { start, len, flags } = self.bounds(v, false);
-        let bytes = self.bytes_of(len);
-        let (head, heads) = (self.head(v, false), self.regions.heads);
-        let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
-        self.by_room(capacity, |t, width| {
+        let ring = self.bounds(v, false);
+        let Bounds { start, len, flags } = ring;
+        self.by_room(v, ring, 1, slow, |t, width| {
             let lanes = t.lanes(start, (width + 3) & !3, flags);
-            let at = t.place_to_edit(&lanes, a, v, bytes, ways);
-            t.leave_unless_it_may_enter(&lanes, x, bytes, v, slow);
-            t.leave_if_gap_or_edge_values(start, bytes, slow);
+            let at = t.place_to_edit(&lanes, a, v, len, done);
+            t.leave_unless_it_may_enter(&lanes, x, v, Held::All(width), slow);
             let after = (side == Side::After) != t.mutated(Mutation::SplicesOnTheOtherSide);
             // The slot behind which x shall stand: that before the first is the last.
             let (here, at) = if after {
                 (t.lanes_with(&lanes, a), at)
             } else {
+                let bytes = t.bytes_of(len);
                 let behind = t.b.ins().select(at, at, bytes);
                 let at = t.b.ins().iadd_imm_s(behind, -4);
                 (t.lanes_at(lanes.len(), at), at)
@@ -195,49 +209,69 @@ impl<'p> Translator<'_, 'p> {
             let fours: Vec<(u32, Value, Value)> = fours(width)
                 .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&put, i64::from(first) - 1)))
                 .collect();
-            t.leave_unless_within(width, 1, capacity, len, slow);
             for (first, lane, shifted) in fours {
                 let behind = t.lanes_behind(at, first);
                 let result = t.b.ins().bitselect(behind, shifted, lane);
                 t.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
             }
             let len = t.b.ins().iadd_imm_s(len, 1);
-            t.b.ins().store(heads, len, head, context::HEAD_LEN);
+            let head = t.head(v, false);
+            t.b.ins().store(t.regions.heads, len, head, context::HEAD_LEN);
             t.b.ins().jump(done, &[]);
         });
     }
 
     /// Goes on, in a block of its own, by the room that a ring has, with how many slots are edited at once: it has room for so
-    /// many, but for the fewest. Rings keep their room while their lengths change, so that which way this goes is foreseen
-    /// by the machine.
-    fn by_room(&mut self, capacity: Value, mut work: impl FnMut(&mut Self, i64)) {
-        let widths = self.edit_widths();
-        for (i, &width) in widths.iter().enumerate() {
-            if let Some(&next) = widths.get(i + 1) {
+    /// many, is shorter by `less` at least, and ends in no gap; else to `slow`. Rings keep their room while their lengths
+    /// change, so that which way this goes is foreseen by the machine.
+    fn by_room(&mut self, v: Value, ring: Bounds, less: i64, slow: Block, mut work: impl FnMut(&mut Self, i64)) {
+        let (head, heads) = (self.head(v, false), self.regions.heads);
+        let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
+        let rooms = self.edit_widths();
+        for (i, widths) in rooms.iter().enumerate() {
+            let larger = rooms.get(i + 1).map(|next| {
                 let [here, larger] = [(); 2].map(|()| self.b.create_block());
-                let fewer = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, next);
+                let fewer = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, next[0]);
                 self.b.ins().brif(fewer, here, &[], larger, &[]);
                 self.continue_in(here);
+                larger
+            });
+            for (j, &width) in widths.iter().enumerate() {
+                let longer = if j + 1 < widths.len() { self.b.create_block() } else { slow };
+                if (i == 0 || j > 0) && !self.mutated(Mutation::IgnoresRoom) {
+                    let tight = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, width);
+                    self.leave_if(tight, slow);
+                }
+                self.leave_unless_within(ring, width, less, longer, slow);
                 work(self, width);
+                if longer != slow {
+                    self.continue_in(longer);
+                }
+            }
+            if let Some(larger) = larger {
                 self.continue_in(larger);
-            } else {
-                work(self, width);
             }
         }
     }
 
-    /// Goes to `slow` where a ring has no room for `width` slots, as [`Translator::by_room`] gives it, or is longer than that
-    /// but for `less`.
-    fn leave_unless_within(&mut self, width: i64, less: i64, capacity: Value, len: Value, slow: Block) {
+    /// Goes to `longer` where a ring is longer than `width` but for `less`, and to `slow` where it ends in a gap.
+    fn leave_unless_within(&mut self, ring: Bounds, width: i64, less: i64, longer: Block, slow: Block) {
         if self.mutated(Mutation::IgnoresRoom) {
-            return;
+            return self.leave_if_gap_or_edge_values(ring, slow);
         }
-        if self.edit_widths().first() == Some(&width) {
-            let tight = self.b.ins().icmp_imm_s(IntCC::UnsignedLessThan, capacity, width);
-            self.leave_if(tight, slow);
-        }
-        let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, len, width - less);
-        self.leave_if(long, slow);
+        // No ring is within 0, which stands there once rings may have gaps.
+        let within = self.load_context(types::I32, context::EDIT_WITHIN + 4 * width as i32);
+        let beyond = if less == 0 { IntCC::UnsignedGreaterThan } else { IntCC::UnsignedGreaterThanOrEqual };
+        let beyond = self.b.ins().icmp(beyond, ring.len, within);
+        let [ask, next] = [(); 2].map(|()| self.b.create_block());
+        self.b.set_cold_block(ask);
+        self.b.ins().brif(beyond, ask, &[], next, &[]);
+        self.continue_in(ask);
+        let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, ring.len, width - less);
+        self.leave_if(long, longer);
+        self.leave_if_it_ends_in_a_gap(ring, slow);
+        self.b.ins().jump(next, &[]);
+        self.continue_in(next);
     }
 
     /// Gives a ring a fresh run of slots, which the caller writes all: the runtime takes slots in use for written. The
@@ -259,20 +293,28 @@ impl<'p> Translator<'_, 'p> {
 
     /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings: if any ring of the mesh
     /// may, this one is asked.
-    fn leave_if_gap_or_edge_values(&mut self, start: Value, bytes: Value, slow: Block) {
+    fn leave_if_gap_or_edge_values(&mut self, ring: Bounds, slow: Block) {
         let may = self.load_context(types::I64, context::GAPS_OR_EDGE_VALUES);
         let [ask, next] = [(); 2].map(|()| self.b.create_block());
         self.b.set_cold_block(ask);
         self.b.ins().brif(may, ask, &[], next, &[]);
         self.continue_in(ask);
-        let end = self.b.ins().iadd(start, bytes);
+        self.leave_if_it_ends_in_a_gap(ring, slow);
+        self.b.ins().jump(next, &[]);
+        self.continue_in(next);
+    }
+
+    /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings.
+    fn leave_if_it_ends_in_a_gap(&mut self, ring: Bounds, slow: Block) {
+        let bytes = self.bytes_of(ring.len);
+        let end = self.b.ins().iadd(ring.start, bytes);
         let last = self.b.ins().uload32(self.regions.slots, end, -4);
         let last = self.b.ins().iadd_imm_s(last, -1);
         let limit = self.load_context(types::I64, context::EDIT_LIMIT);
         let bad = self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, last, limit);
-        let to = if self.mutated(Mutation::IgnoresGaps) { next } else { slow };
-        self.b.ins().brif(bad, to, &[], next, &[]);
-        self.continue_in(next);
+        if !self.mutated(Mutation::IgnoresGaps) {
+            self.leave_if(bad, slow);
+        }
     }
 
     pub(super) fn erase(&mut self, item: &'p Item, from: &'p Ring) -> Translated<()> {
@@ -297,36 +339,31 @@ impl<'p> Translator<'_, 'p> {
     fn erase_in_place(&mut self, x: Value, v: Value, ways: Ways) {
         let ring = self.bounds(v, false);
         if self.unit.facts.grows {
-            let (head, heads) = (self.head(v, false), self.regions.heads);
-            let capacity = self.b.ins().load(types::I32, heads, head, context::HEAD_CAPACITY);
-            self.by_room(capacity, |t, width| t.erase_lanes(x, v, ring, width, Some(capacity), ways));
+            self.by_room(v, ring, 0, ways.slow, |t, width| t.erase_lanes(x, v, ring, width, Behind::Room, ways));
         } else {
             self.by_width(self.widths(), ring.len, 0, ways.slow, |t, width| {
-                t.erase_lanes(x, v, ring, width, None, ways);
+                t.leave_if_gap_or_edge_values(ring, ways.slow);
+                t.erase_lanes(x, v, ring, width, Behind::Others, ways);
             });
         }
     }
 
-    /// Takes a vertex out of a ring that is edited by so many slots: if `capacity` is given, as [`Translator::by_room`] gives
-    /// them, else it has no more, and slots behind it are another's.
-    fn erase_lanes(&mut self, x: Value, v: Value, ring: Bounds, width: i64, capacity: Option<Value>, ways: Ways) {
+    /// Takes a vertex out of a ring that is edited by so many slots.
+    fn erase_lanes(&mut self, x: Value, v: Value, ring: Bounds, width: i64, behind: Behind, ways: Ways) {
         let Bounds { start, len, flags } = ring;
-        let bytes = self.bytes_of(len);
         let lanes = self.lanes(start, (width + 3) & !3, flags);
-        let at = self.place_to_edit(&lanes, x, v, bytes, ways);
-        self.leave_if_gap_or_edge_values(start, bytes, ways.slow);
-        if let Some(capacity) = capacity {
-            self.leave_unless_within(width, 0, capacity, len, ways.slow);
-        }
+        let at = self.place_to_edit(&lanes, x, v, len, ways.done);
         // Lanes from `at` on take what stands behind them.
         let fours: Vec<(u32, Value, Value)> = fours(width)
             .map(|first| (first, self.four(&lanes, i64::from(first)), self.four(&lanes, i64::from(first) + 1)))
             .collect();
-        let before = self.b.ins().iadd_imm_s(at, -4);
-        let last = self.b.ins().iadd_imm_s(bytes, -4);
-        let end = if capacity.is_none() { Some(self.lanes_of_offset(last)) } else { None };
+        let end = (behind == Behind::Others).then(|| {
+            let bytes = self.bytes_of(len);
+            let last = self.b.ins().iadd_imm_s(bytes, -4);
+            self.lanes_of_offset(last)
+        });
         for (first, lane, shifted) in fours {
-            let from = self.lanes_behind(before, first);
+            let from = self.lanes_behind(at, first + 1);
             let mut result = self.b.ins().bitselect(from, shifted, lane);
             if let Some(end) = end {
                 // Those behind the ring get back what they hold.

@@ -81,6 +81,9 @@ impl Translator<'_, '_> {
         let stopped = self.b.create_block();
         self.b.set_cold_block(stopped);
         let next = self.b.create_block();
+        if self.b.current_block().is_some_and(|block| self.b.func.layout.is_cold(block)) {
+            self.b.set_cold_block(next);
+        }
         self.b.ins().brif(stop, stopped, &[], next, &[]);
         self.b.switch_to_block(stopped);
         self.b.seal_block(stopped);

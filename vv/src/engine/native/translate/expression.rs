@@ -96,6 +96,7 @@ impl<'p> Translator<'_, 'p> {
                         start: bounds.start,
                         bytes: self.bytes_of(bounds.len),
                         at,
+                        here: None,
                         certain: true,
                         flags: bounds.flags,
                     };
@@ -160,6 +161,7 @@ impl<'p> Translator<'_, 'p> {
         let found = self.find(x, source)?;
         let (y, place) = self.neighbour(found, forward);
         self.learn_that_it_stands_in(y, source);
+        self.known.learn(Key::Met(y), Fact::Holds);
         if let (Some(x), Source::Of { v, old: false }) = (x, source) {
             let place = if self.mutated(Mutation::StandsBesideItself) { found.at } else { place };
             self.known.learn(Key::Beside(y), Fact::Beside { x, v, at: found.at, place });
@@ -175,8 +177,16 @@ impl<'p> Translator<'_, 'p> {
     }
 
     fn short_circuit(&mut self, a: &'p Expr, b: &'p Expr, decides: bool) -> Translated<Val> {
-        let first = self.condition(a)?;
         let decides = decides != self.mutated(Mutation::AndIsOr);
+        if let Some((less, [a, b], limit)) = both_against_one(a, b) {
+            // The smaller one is smaller if one is, the larger if both are; and the other way round.
+            let [a, b, limit] = [self.vertex(a)?, self.vertex(b)?, self.vertex(limit)?];
+            let smaller = (less == decides) != self.mutated(Mutation::SmallerIsLarger);
+            let one = if smaller { self.b.ins().umin(a, b) } else { self.b.ins().umax(a, b) };
+            let c = if less { IntCC::UnsignedLessThan } else { IntCC::UnsignedGreaterThan };
+            return Ok(Val::One(self.b.ins().icmp(c, one, limit)));
+        }
+        let first = self.condition(a)?;
         if compares_only(b) {
             // It can be computed for nothing, and two ways that are hard to foresee become one.
             let second = self.condition(b)?;
@@ -401,6 +411,19 @@ fn float(c: Comparison) -> FloatCC {
         Comparison::Equal => FloatCC::Equal,
         Comparison::NotEqual => FloatCC::NotEqual,
     }
+}
+
+/// Two variables, both asked whether they are less (or both whether they are greater) than a third.
+fn both_against_one<'p>(a: &'p Expr, b: &'p Expr) -> Option<(bool, [&'p Expr; 2], &'p Expr)> {
+    let (ExprKind::Binary(op, x, limit), ExprKind::Binary(other, y, same)) = (&a.kind, &b.kind) else { return None };
+    let less = match op {
+        Binary::CompareVertex(Comparison::Less) => true,
+        Binary::CompareVertex(Comparison::Greater) => false,
+        _ => return None,
+    };
+    let local = |e: &Expr| if let ExprKind::Local(local) = e.kind { Some(local) } else { None };
+    let fits = op == other && local(limit) == local(same) && [x, y, limit].iter().all(|e| local(e).is_some());
+    fits.then_some((less, [&**x, &**y], &**limit))
 }
 
 /// Whether a condition compares variables and constants and nothing else: so it is cheap, and nothing goes wrong in it.

@@ -25,6 +25,8 @@ pub(super) struct Found {
     pub(super) bytes: Value,
     /// Bytes from the start to the slot, i64.
     pub(super) at: Value,
+    /// Addresses of the slot and of the ring's end, where they are at hand.
+    pub(super) here: Option<(Value, Value)>,
     /// It is there.
     pub(super) certain: bool,
     /// The kind of memory.
@@ -64,6 +66,8 @@ pub(super) enum Key {
     },
     /// What stands beside something in a ring, if it is not null.
     Beside(Value),
+    /// A vertex or null when this was learned.
+    Met(Value),
     /// Where a face, which begins at `start`, has this side.
     Side {
         p: Value,
@@ -205,7 +209,7 @@ impl Known {
     fn is_younger(&self, a: Value, b: Value) -> bool {
         let Some(a) = self.fresh(a) else { return false };
         let was = |key| self.facts.get(&key).is_some_and(|&(_, place)| place < a.since);
-        was(Key::NotNull(b)) || was(Key::Beside(b))
+        was(Key::NotNull(b)) || was(Key::Met(b))
     }
 
     fn fresh(&self, v: Value) -> Option<&Fresh> {

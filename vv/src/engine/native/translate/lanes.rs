@@ -6,6 +6,13 @@ use cranelift_codegen::ir::{ConstantData, Endianness, InstBuilder, MemFlagsData,
 use super::Translator;
 use crate::engine::native::context;
 
+/// The first slot of lanes that holds something: how many bits stand for those before it, and how many bits for one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct First {
+    bits: Value,
+    each: u32,
+}
+
 impl Translator<'_, '_> {
     /// Slots from an address on, which nothing aligns.
     pub(super) fn lanes(&mut self, start: Value, width: i64, flags: MemFlagsData) -> Vec<Value> {
@@ -13,23 +20,49 @@ impl Translator<'_, '_> {
         (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32)).collect()
     }
 
-    /// Bytes from the first lane to the first one that holds `x`, i64; at least all their bytes if none does.
-    pub(super) fn first_match(&mut self, lanes: &[Value], x: Value) -> Value {
+    /// The first slot of the lanes that holds `x`.
+    pub(super) fn first_match(&mut self, lanes: &[Value], x: Value) -> First {
+        let (bits, each) = self.matches(lanes, x);
+        First { bits: self.b.ins().ctz(bits), each }
+    }
+
+    /// A bit, or two, for each slot that holds `x`, i64, and how many.
+    fn matches(&mut self, lanes: &[Value], x: Value) -> (Value, u32) {
         let mut equal = self.lanes_with(lanes, x);
-        // How many bits stand for a slot becomes how many bytes: 4 = 1 << 2 = 2 << 1.
-        let mut shift = 2;
+        let mut each = 1;
         if equal.len() > 1 {
             equal = self.narrowed(&equal);
-            shift = 1;
+            each = 2;
         }
         if equal.len() > 1 {
             equal = self.narrowed(&equal);
-            shift = 2;
+            each = 1;
         }
-        let lanes = if shift == 1 { self.b.ins().bitcast(types::I8X16, little_endian(), equal[0]) } else { equal[0] };
-        let bits = self.b.ins().vhigh_bits(types::I64, lanes);
-        let first = self.b.ins().ctz(bits);
-        self.b.ins().ishl_imm_u(first, shift)
+        let lanes = if each == 2 { self.b.ins().bitcast(types::I8X16, little_endian(), equal[0]) } else { equal[0] };
+        (self.b.ins().vhigh_bits(types::I64, lanes), each)
+    }
+
+    /// Whether it is none of the first `len` slots.
+    pub(super) fn is_beyond(&mut self, first: First, len: Value) -> Value {
+        let mut end = self.wide(len);
+        if first.each == 2 {
+            end = self.b.ins().iadd(end, end);
+        }
+        self.b.ins().icmp(IntCC::UnsignedGreaterThanOrEqual, first.bits, end)
+    }
+
+    /// Bytes before it; no place in the lanes if there is none.
+    pub(super) fn bytes_before(&mut self, first: First) -> Value {
+        self.b.ins().ishl_imm_u(first.bits, if first.each == 2 { 1 } else { 2 })
+    }
+
+    /// Not zero where one of the first `width` slots holds `x`.
+    pub(super) fn is_among_first(&mut self, lanes: &[Value], x: Value, width: i64) -> Value {
+        let (bits, each) = self.matches(lanes, x);
+        if width == 4 * lanes.len() as i64 {
+            return bits;
+        }
+        self.b.ins().band_imm_u(bits, (1 << (width * i64::from(each))) - 1)
     }
 
     /// Lanes of half the width, two by two.

@@ -27,6 +27,9 @@ impl Translator<'_, '_> {
                 id
             }
         };
+        if let Some(span) = self.ask_rarely {
+            self.poll(span);
+        }
         for (i, &x) in operands.iter().enumerate() {
             self.store_context(x, context::OPERANDS + 8 * i as i32);
         }

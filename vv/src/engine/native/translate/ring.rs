@@ -181,10 +181,10 @@ impl<'p> Translator<'_, 'p> {
         if self.unit.facts.fresh_capacity <= 4 { &[4, 8] } else { &[8, 12, 16] }
     }
 
-    /// Widths of rings that are edited in line where they have room for so many slots, as rings of programs that splice
-    /// have.
-    pub(super) fn edit_widths(&self) -> &'static [i64] {
-        if self.unit.facts.fresh_capacity <= 4 { &[4, 8] } else { &[6, 8, 12, 16] }
+    /// By how many slots rings are edited in line, as rings of programs that splice have room: those that have room for the
+    /// first of the next group are of that one.
+    pub(super) fn edit_widths(&self) -> &'static [&'static [i64]] {
+        if self.unit.facts.fresh_capacity <= 4 { &[&[4], &[8]] } else { &[&[6, 8], &[12, 16]] }
     }
 
     /// For each width: goes on, in a block of its own, where a ring has at most so many slots but for `less`. Beyond the
@@ -220,7 +220,7 @@ impl<'p> Translator<'_, 'p> {
         if let (Some(x), Source::Of { v, old: false }) = (x, source)
             && let Some(at) = self.known.place(x, v)
         {
-            let found = Found { start, bytes, at, certain: true, flags };
+            let found = Found { start, bytes, at, here: None, certain: true, flags };
             self.known.learn(Key::Find { x, v, old: false }, Fact::Found(found));
             return Ok(found);
         }
@@ -233,9 +233,10 @@ impl<'p> Translator<'_, 'p> {
             let widths = if changes { &[12, 16] } else { self.widths() };
             self.by_width(widths, len, 0, slow, |t, width| {
                 let lanes = t.lanes(start, width, flags);
-                let at = t.first_match(&lanes, x);
-                let found = t.b.ins().icmp(IntCC::UnsignedLessThan, at, bytes);
-                t.b.ins().brif(found, done, &[start.into(), at.into()], missing, &[]);
+                let first = t.first_match(&lanes, x);
+                let absent = t.is_beyond(first, len);
+                let at = t.bytes_before(first);
+                t.b.ins().brif(absent, missing, &[], done, &[start.into(), at.into()]);
             });
         } else {
             self.b.ins().jump(slow, &[]);
@@ -258,7 +259,7 @@ impl<'p> Translator<'_, 'p> {
         let middle = self.b.ins().iconst(types::I64, 4);
         self.jump_with(done, &[nothing, middle]);
         self.continue_in(done);
-        let found = Found { start: results[0], bytes, at: results[1], certain: false, flags };
+        let found = Found { start: results[0], bytes, at: results[1], here: None, certain: false, flags };
         if let (Some(x), Source::Of { v, old }) = (x, source) {
             self.known.learn(Key::Find { x, v, old }, Fact::Found(found));
         }
@@ -282,6 +283,11 @@ impl<'p> Translator<'_, 'p> {
     /// What follows or precedes, with its place, bytes from the start; null if it is not there.
     pub(super) fn neighbour(&mut self, found: Found, forward: bool) -> (Value, Value) {
         let forward = forward != self.mutated(Mutation::NextIsPrevious);
+        if let Some((at, end)) = found.here {
+            let address = if forward { self.after(at, found.start, end) } else { self.before(at, found.start, end) };
+            let place = self.b.ins().isub(address, found.start);
+            return (self.load_number(found.flags, address, 0), place);
+        }
         let place = if forward {
             let zero = self.b.ins().iconst(types::I64, 0);
             let next = self.b.ins().iadd_imm_s(found.at, 4);

@@ -25,7 +25,8 @@ struct Rounds {
     flags: MemFlagsData,
     /// Whether there may be gaps.
     gaps: bool,
-    /// Whether a round takes so little that the whole loop is over before anybody waits for it.
+    /// Whether a round takes so little that the whole loop is over before anybody waits for it, but for what is left to the
+    /// runtime.
     brief: bool,
     span: Span,
 }
@@ -178,7 +179,7 @@ impl<'p> Translator<'_, 'p> {
         let Bounds { start: first, flags, .. } = bounds;
         let end = self.b.ins().iadd(first, bytes);
         self.forget(effects);
-        let rounds = Rounds { local, follower, first, end, begin, flags, gaps, brief: only_computes(body), span };
+        let rounds = Rounds { local, follower, first, end, begin, flags, gaps, brief: is_brief(body), span };
         let corners = if orbit && begin.is_none() { std::mem::take(&mut self.corners) } else { Touched::default() };
         let ask = |t: &mut Self, at| t.ask_for_corners(corners, at, flags);
         self.walk(&rounds, walk, exit, body, ask, |t, sides| {
@@ -190,8 +191,9 @@ impl<'p> Translator<'_, 'p> {
             match source {
                 Source::Of { v, old } if !moves => {
                     for &(x, at) in sides {
+                        let here = Some((at, end));
                         let at = t.b.ins().isub(at, first);
-                        let found = Found { start: first, bytes, at, certain: true, flags };
+                        let found = Found { start: first, bytes, at, here, certain: true, flags };
                         t.known.learn(Key::Find { x, v, old }, Fact::Found(found));
                     }
                 }
@@ -354,7 +356,9 @@ impl<'p> Translator<'_, 'p> {
             self.define_local(local, Val::One(x))?;
         }
         self.frame_mut()?.loops.push(Loop { next, exit, walk });
+        let ask = std::mem::replace(&mut self.ask_rarely, brief.then_some(span));
         let goes_on = self.block(body)?;
+        self.ask_rarely = ask;
         self.frame_mut()?.loops.pop();
         if goes_on {
             self.b.ins().jump(next, &[]);
@@ -382,8 +386,15 @@ impl<'p> Translator<'_, 'p> {
         v
     }
 
+    /// The address before another, once round.
+    pub(super) fn before(&mut self, at: Value, first: Value, end: Value) -> Value {
+        let begins = self.b.ins().icmp(IntCC::Equal, at, first);
+        let behind = self.b.ins().select(begins, end, at);
+        self.b.ins().iadd_imm_s(behind, -4)
+    }
+
     /// The address after another, once round.
-    fn after(&mut self, at: Value, first: Value, end: Value) -> Value {
+    pub(super) fn after(&mut self, at: Value, first: Value, end: Value) -> Value {
         let after = self.b.ins().iadd_imm_s(at, 4);
         let last = self.b.ins().icmp(IntCC::Equal, after, end);
         self.b.ins().select(last, first, after)
@@ -403,24 +414,38 @@ impl<'p> Translator<'_, 'p> {
     }
 }
 
-/// Whether statements only compute, without loops, and look for nothing in rings.
-fn only_computes(body: &[Stmt]) -> bool {
-    let mut only = true;
+/// Whether statements are over soon, without loops: what they do takes no longer where rings are long or the mesh is large,
+/// but for what is left to the runtime now and then.
+fn is_brief(body: &[Stmt]) -> bool {
+    let mut brief = true;
     each(body, &mut |node| {
-        only &= match node {
+        brief &= match node {
             Node::Stmt(s) => {
-                use StmtKind::{Block, Break, Continue, Declare, Expr, If};
-                matches!(s.kind, Block(_) | Break | Continue | Declare { .. } | Expr(_) | If { .. })
+                use StmtKind::{Add, Block, Break, Continue, Declare, Erase, Expr, If, Make, Replace, Splice};
+                matches!(
+                    s.kind,
+                    Add { .. }
+                        | Block(_)
+                        | Break
+                        | Continue
+                        | Declare { .. }
+                        | Erase { .. }
+                        | Expr(_)
+                        | If { .. }
+                        | Make { .. }
+                        | Replace { .. }
+                        | Splice { .. }
+                )
             }
             Node::Expr(e) => {
                 let is_value = !matches!(e.ty, Type::Mesh | Type::Ring | Type::Void);
-                is_value && !matches!(e.kind, ExprKind::Call(..) | ExprKind::Create)
+                is_value && !matches!(e.kind, ExprKind::Call(..))
             }
             Node::Place(place) => !matches!(place, Place::EdgeProperty { .. }),
-            Node::Ring(_) => false,
+            Node::Ring(ring) => matches!(ring, Ring::Of { .. }),
         };
     });
-    only
+    brief
 }
 
 /// Whether a condition is cheap to have twice.
