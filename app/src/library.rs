@@ -52,6 +52,8 @@ pub const PROGRAMS: &[Shipped] = &[
     Shipped { name: "geometry.vv", text: include_str!("../../assets/programs/geometry.vv") },
     Shipped { name: "build.vv", text: include_str!("../../assets/programs/build.vv") },
     Shipped { name: "inherit.vv", text: include_str!("../../assets/programs/inherit.vv") },
+    Shipped { name: "fine.vv", text: include_str!("../../assets/programs/fine.vv") },
+    Shipped { name: "creases.vv", text: include_str!("../../assets/programs/creases.vv") },
     Shipped { name: "solids.vv", text: include_str!("../../assets/programs/solids.vv") },
     Shipped { name: "ptq.vv", text: include_str!("../../assets/programs/ptq.vv") },
     Shipped { name: "ptt.vv", text: include_str!("../../assets/programs/ptt.vv") },

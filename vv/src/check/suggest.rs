@@ -14,14 +14,16 @@ use super::body::Role;
 pub(super) const MAX_SEARCHES: u32 = 50;
 
 /// What the files that come with vv define and others may want: those made to be included, and the schemes.
-pub(super) const SHIPPED: [(&str, &[&str]); 15] = [
+pub(super) const SHIPPED: [(&str, &[&str]); 17] = [
     ("insert.vv", &["insert"]),
     ("split.vv", &["split"]),
-    ("edits.vv", &["halve", "can_flip", "flip", "can_contract", "contract", "pyramid"]),
+    ("edits.vv", &["halve", "can_flip", "flip", "can_contract", "contract", "pyramid", "triangulate"]),
     ("geometry.vv", &["middle", "area", "area_round", "normal", "angle", "cotangent", "bend", "edge_weight"]),
     ("build.vv", &["polygon", "triangle", "quad", "grid"]),
     ("inherit.vv", &["inherit"]),
-    ("solids.vv", &["is_empty", "tetrahedron", "cube", "octahedron", "icosahedron", "solid"]),
+    ("fine.vv", &["make_fine"]),
+    ("creases.vv", &["faded", "sharp", "fade"]),
+    ("solids.vv", &["is_empty", "count", "tetrahedron", "cube", "octahedron", "icosahedron", "solid"]),
     ("ptq.vv", &["ptq"]),
     ("ptt.vv", &["ptt"]),
     ("pqq.vv", &["pqq"]),
