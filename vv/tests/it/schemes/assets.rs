@@ -65,6 +65,21 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("tissue.vv", None, Class::ClosedPolygons),
 ];
 
+/// What no mesh that ships has: fans that meet in a point, one face alone, faces of three sizes along a boundary.
+const ODD: &[(&str, &str)] = &[
+    ("two triangles at a point", "v 0 0 0\nv 1 1 0\nv 1 -1 0\nv -1 1 1\nv -1 -1 0\nf 1 3 2\nf 1 4 5\n"),
+    ("a triangle", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+    (
+        "two quads at a point",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 1\nv -1 -1 0\nv 0 -1 0\nf 1 2 3 4\nf 1 5 6 7\n",
+    ),
+    (
+        "a quad between triangles and a pentagon",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 2 1\nv 2 0.5 0\nv -1 0 0\nv -1 1 0\nv -2 0.5 0\n\
+         f 1 2 3 4\nf 4 3 5\nf 3 2 6\nf 7 1 4 8 9\n",
+    ),
+];
+
 fn files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(assets_folder().join(folder)).unwrap();
     let mut files: Vec<_> = entries.map(|e| e.unwrap().path()).filter(|p| p.is_file()).collect();
@@ -104,8 +119,12 @@ fn every_program_runs_on_every_mesh_it_is_for() {
             let format = Format::from_extension(path.extension()?.to_str()?)?;
             let (mesh, warnings) = read(&std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap();
             assert!(warnings.is_empty(), "{}: {warnings:?}", path.display());
-            Some((name(path), count(&mesh), mesh))
+            Some((name(path), mesh))
         })
+        .chain(ODD.iter().map(|&(name, text)| {
+            (name.to_owned(), read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap().0)
+        }))
+        .map(|(name, mesh)| (name, count(&mesh), mesh))
         .collect();
     for path in files("programs") {
         let file = name(&path);
