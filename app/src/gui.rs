@@ -163,6 +163,8 @@ pub struct App {
     focus: Option<egui::Id>,
     /// Frames until they get them back, from the dialog's last one on.
     asked: u8,
+    /// Keys that were pressed in the meantime.
+    held: Vec<egui::Event>,
 }
 
 impl App {
@@ -208,6 +210,7 @@ impl App {
             font_size: 0.0,
             focus: None,
             asked: 0,
+            held: Vec::new(),
         })
     }
 
@@ -295,6 +298,23 @@ impl App {
             egui::Panel::bottom("timeline").frame(theme::bar(ui)).show(ui, |ui| timeline::show(ui, session, commands));
         }
         self.pictures.show(ui, &mut self.session, commands);
+    }
+
+    /// A frame may take long. What is typed after a key that changes what the next ones mean, waits for the next frame.
+    fn hold_keys(&mut self, ctx: &egui::Context) {
+        let dialog = self.session.dialog.is_some();
+        ctx.input_mut(|i| {
+            i.events.splice(0..0, self.held.drain(..));
+            // The keys are not yet with those again who had them before the dialog.
+            let from = if !dialog && self.asked > 0 { 0 } else { keys::one_after_another(&i.events, dialog) };
+            let later = i.events.split_off(from);
+            let (later, now): (Vec<_>, Vec<_>) = later.into_iter().partition(keys::is_typed);
+            self.held = later;
+            i.events.extend(now);
+        });
+        if !self.held.is_empty() {
+            ctx.request_repaint();
+        }
     }
 
     /// After a dialog the keys belong again to whom they belonged before.
@@ -406,6 +426,7 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let _span = trace::span("window: panels and picture");
         let mut commands = Vec::new();
+        self.hold_keys(ui.ctx());
         self.keep_focus(ui.ctx());
         menu_keys::walk(ui.ctx());
         self.editors.current_mut().lead_on(ui.ctx());

@@ -422,6 +422,7 @@ impl Session {
             Command::Play => {
                 self.playing = Some(Instant::now());
                 self.plays += 1;
+                self.play_in_common();
             }
             Command::Stop => self.stop(),
 

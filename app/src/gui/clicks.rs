@@ -38,21 +38,34 @@ pub const HANDS: &[(&str, &str)] = &[
     ("right click", "what can be done with the vertex, edge or face; also in the program, in lists, on the time line"),
 ];
 
+/// What is seen in a viewport, as hands meet it.
+#[derive(Clone, Copy)]
+pub struct Sight<'a> {
+    /// Where things are seen.
+    pub overlay: &'a Overlay<'a>,
+    /// Whose picture it is.
+    pub session: &'a Session,
+    /// The mesh in it.
+    pub frame: &'a Frame,
+    /// What of the distance to the eye is as wide as what a pointer means.
+    pub spread: f64,
+}
+
+impl Sight<'_> {
+    /// What lies under a place of the window; faces hide what is behind them, if they are seen.
+    pub fn under(&self, at: Pos2) -> Option<Picked> {
+        let opaque = self.session.document.style.faces;
+        let pointer = Pointer { ray: self.overlay.ray(at), spread: self.spread, opaque, cut: self.overlay.cut() };
+        self.frame.scene.pick(&pointer)
+    }
+}
+
 /// Takes clicks and the place where the pointer rests.
-pub fn take(
-    ui: &Ui,
-    response: &Response,
-    overlay: &Overlay<'_>,
-    session: &Session,
-    frame: &Frame,
-    spread: f64,
-    commands: &mut Vec<Command>,
-) {
-    let opaque = session.document.style.faces;
-    let pick = |at: Pos2| under(overlay, frame, at, spread, opaque);
+pub fn take(ui: &Ui, response: &Response, sight: Sight<'_>, commands: &mut Vec<Command>) {
+    let Sight { overlay, session, frame, .. } = sight;
     if let Some(at) = response.hover_pos()
         && !response.dragged()
-        && let Some(picked) = pick(at)
+        && let Some(picked) = sight.under(at)
         && let Some(vertex) = picked.vertex.filter(|near| near.distance <= 1.0)
         && stands_out(overlay, frame, vertex.what)
     {
@@ -63,7 +76,7 @@ pub fn take(
     };
     let held = ui.input(|i| i.modifiers);
     let Some(&(_, click)) = CLICKS.iter().find(|(modifiers, _)| held.contains(*modifiers)) else { return };
-    let picked = pick(at);
+    let picked = sight.under(at);
     let wish = match (click, picked.as_ref()) {
         // The nearest vertex will do.
         (Click::Select, Some(picked)) if session.inspection.measuring => {
@@ -77,11 +90,6 @@ pub fn take(
         (_, None) => None,
     };
     commands.extend(wish.map(Command::Inspect));
-}
-
-/// What lies under a place of the window; faces hide what is behind them if they are `opaque`.
-pub fn under(overlay: &Overlay<'_>, frame: &Frame, at: Pos2, spread: f64, opaque: bool) -> Option<Picked> {
-    frame.scene.pick(&Pointer { ray: overlay.ray(at), spread, opaque, cut: overlay.cut() })
 }
 
 /// Whether its neighbours are far enough away that the pointer is not always beside some vertex.

@@ -4,8 +4,8 @@ use eframe::egui::{PointerButton, Response, RichText, Ui};
 use glam::DVec3;
 use vv::mesh::Vertex;
 
-use super::clicks;
-use super::overlay::Overlay;
+use super::clicks::{self, Sight};
+use super::menu;
 use super::widgets::{menu_entry, menu_item};
 use crate::camera::Camera;
 use crate::command::{Command, Inspect, Panel, ViewAction};
@@ -45,18 +45,10 @@ struct Under {
 
 impl Context {
     /// Opens the menu where it is asked for, and shows it.
-    pub fn show(
-        &mut self,
-        response: &Response,
-        overlay: &Overlay<'_>,
-        session: &Session,
-        frame: &Frame,
-        spread: f64,
-        commands: &mut Vec<Command>,
-    ) {
+    pub fn show(&mut self, response: &Response, sight: Sight<'_>, commands: &mut Vec<Command>) {
+        let Sight { session, frame, .. } = sight;
         if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked_by(PointerButton::Secondary)) {
-            let picked = clicks::under(overlay, frame, at, spread, session.document.style.faces);
-            self.under = picked.and_then(|picked| {
+            self.under = sight.under(at).and_then(|picked| {
                 let item = clicks::item(frame, &picked)?;
                 let point = match item {
                     Item::Vertex(v) => frame.mesh.position(v),
@@ -68,20 +60,24 @@ impl Context {
         // The mesh may have become another one under an open menu.
         self.under = self.under.take().filter(|under| under.item.is_in(&frame.mesh));
         response.context_menu(|ui| {
-            ui.set_min_width(220.0);
-            if let Some(under) = &self.under {
-                under.show(ui, session, frame, commands);
+            menu::scrolled(ui, 0.0, |ui| self.entries(ui, session, frame, commands));
+        });
+    }
+
+    fn entries(&self, ui: &mut Ui, session: &Session, frame: &Frame, commands: &mut Vec<Command>) {
+        ui.set_min_width(220.0);
+        if let Some(under) = &self.under {
+            under.show(ui, session, frame, commands);
+            ui.separator();
+        }
+        for (i, group) in if self.under.is_some() { SHORT } else { PICTURE }.iter().enumerate() {
+            if i > 0 {
                 ui.separator();
             }
-            for (i, group) in if self.under.is_some() { SHORT } else { PICTURE }.iter().enumerate() {
-                if i > 0 {
-                    ui.separator();
-                }
-                for command in *group {
-                    menu_item(ui, session, commands, command.clone(), self.under.is_none());
-                }
+            for command in *group {
+                menu_item(ui, session, commands, command.clone(), self.under.is_none());
             }
-        });
+        }
     }
 }
 

@@ -122,6 +122,29 @@ fn pasted_viewpoint(ctx: &Context, session: &Session, typing: bool) -> Option<St
     })
 }
 
+/// How many of the events are taken in one frame: a key with Ctrl, which changes what text there is or what is open, comes
+/// alone, and what comes after a key that may close a dialog is not for the dialog. Keys held down go together.
+pub fn one_after_another(events: &[Event], dialog: bool) -> usize {
+    let mut typed = false;
+    for (i, event) in events.iter().enumerate() {
+        if let Event::Key { key, pressed: true, repeat: false, modifiers, .. } = event {
+            if modifiers.command && !modifiers.alt {
+                return if typed { i } else { i + 1 };
+            }
+            if dialog && matches!(key, Key::Enter | Key::Escape) {
+                return i + 1;
+            }
+        }
+        typed |= is_typed(event);
+    }
+    events.len()
+}
+
+/// Whether an event comes from the keyboard.
+pub fn is_typed(event: &Event) -> bool {
+    matches!(event, Event::Key { .. } | Event::Text(_) | Event::Ime(_) | Event::Paste(_) | Event::Copy | Event::Cut)
+}
+
 /// Opens what was dropped on the window.
 pub fn take_dropped_files(ctx: &Context, commands: &mut Vec<Command>) {
     let paths = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect::<Vec<_>>());

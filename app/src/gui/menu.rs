@@ -1,7 +1,7 @@
 //! The menu bar.
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{Align, Color32, Key, Layout, MenuBar, Stroke, TextFormat, TextStyle, Ui};
+use eframe::egui::{Align, Color32, Key, Layout, MenuBar, Response, ScrollArea, Stroke, TextFormat, TextStyle, Ui};
 
 use super::widgets::{TICK, menu_item};
 use super::{menu_keys, views};
@@ -33,30 +33,46 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
         for menu in MENUS.iter().filter(|menu| outer(menu.title).is_none()) {
             let title = title(ui, menu.title);
-            let button = ui.menu_button(title, |ui| {
-                ui.set_min_width(210.0);
-                entries(ui, session, commands, menu);
-                if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
-                    ui.separator();
-                }
-                let ticks = has_ticks(session, menu);
-                for more in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
-                    inner(ui, more.title, ticks, |ui| entries(ui, session, commands, more));
-                }
-                if menu.title == "Camera" {
-                    inner(ui, "Saved viewpoints", ticks, |ui| views::show(ui, session, commands));
-                }
-            });
-            buttons.push(button.response);
+            buttons.push(of_bar(ui, title, |ui| whole(ui, session, commands, menu)));
             if menu.title == "File" {
                 let name = self::title(ui, "Examples");
-                buttons.push(ui.menu_button(name, |ui| examples(ui, session, commands)).response);
+                buttons.push(of_bar(ui, name, |ui| examples(ui, session, commands)));
                 let name = self::title(ui, "Meshes");
-                buttons.push(ui.menu_button(name, |ui| meshes(ui, session, commands)).response);
+                buttons.push(of_bar(ui, name, |ui| meshes(ui, session, commands)));
             }
         }
     });
     menu_keys::remember(ui, &buttons);
+}
+
+/// A menu that hangs from the bar.
+fn of_bar(ui: &mut Ui, title: LayoutJob, show: impl FnOnce(&mut Ui)) -> Response {
+    let bar = ui.max_rect().bottom();
+    ui.menu_button(title, |ui| scrolled(ui, bar, show)).response
+}
+
+/// The entries of a menu, which are scrolled if they have no room below `top`.
+pub fn scrolled(ui: &mut Ui, top: f32, show: impl FnOnce(&mut Ui)) {
+    let around = ui.style().spacing.menu_margin.sum().y + 12.0;
+    let room = (ui.ctx().content_rect().bottom() - top - around).max(100.0);
+    // Nothing else says that there is more.
+    ui.spacing_mut().scroll.dormant_handle_opacity = 0.5;
+    ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, show);
+}
+
+fn whole(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, menu: &Menu) {
+    ui.set_min_width(210.0);
+    entries(ui, session, commands, menu);
+    if MENUS.iter().any(|inner| outer(inner.title) == Some(menu.title)) {
+        ui.separator();
+    }
+    let ticks = has_ticks(session, menu);
+    for more in MENUS.iter().filter(|inner| outer(inner.title) == Some(menu.title)) {
+        inner(ui, more.title, ticks, |ui| entries(ui, session, commands, more));
+    }
+    if menu.title == "Camera" {
+        inner(ui, "Saved viewpoints", ticks, |ui| views::show(ui, session, commands));
+    }
 }
 
 /// A title, its letter underlined while Alt is held.
@@ -82,7 +98,7 @@ fn inner(ui: &mut Ui, title: &str, ticks: bool, show: impl FnOnce(&mut Ui)) {
     let mut text = LayoutJob::default();
     let format = TextFormat::simple(TextStyle::Button.resolve(ui.style()), Color32::PLACEHOLDER);
     text.append(title, if ticks { TICK } else { 0.0 }, format);
-    let button = ui.menu_button(text, show);
+    let button = ui.menu_button(text, |ui| scrolled(ui, 0.0, show));
     menu_keys::entry(ui, &button.response);
 }
 

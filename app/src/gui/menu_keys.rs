@@ -22,8 +22,11 @@ struct Entries {
 #[derive(Clone, Default)]
 struct Bar(Vec<Id>);
 
-/// Tells of an entry of a menu, which arrows come to if it can be chosen.
+/// Tells of an entry of a menu, which arrows come to if it can be chosen, and which is brought in sight then.
 pub fn entry(ui: &Ui, response: &Response) {
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
     if response.enabled() {
         with(ui.ctx(), |entries| entries.now.push(response.id));
     }

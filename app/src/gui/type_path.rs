@@ -23,6 +23,8 @@ struct Listing {
     used: u64,
     /// Whether the keys have gone to the field, which a dialog does not give them in its first pass.
     has_begun: bool,
+    /// The path for which Tab had nothing to complete.
+    vain: Option<String>,
 }
 
 /// Shows it in a dialog. Returns, when a path was chosen, whether what is there may be replaced.
@@ -57,9 +59,11 @@ pub fn show(
     }
     let fitting: Vec<&Entry> = typed_path::fitting(&listing.entries, path).collect();
     let completion = typed_path::completion(&fitting, path);
-    let tab = ui.memory(|m| m.has_focus(id)) && completion.is_some() && ui.input(|i| i.key_pressed(Key::Tab));
-    // Tab completes while there is something to complete, else it goes on.
-    let keys = EventFilter { tab: completion.is_some(), horizontal_arrows: true, ..EventFilter::default() };
+    let tab = ui.memory(|m| m.has_focus(id)) && ui.input(|i| i.modifiers.is_none() && i.key_pressed(Key::Tab));
+    // Tab completes; where there is nothing to complete, it says so, and goes on when it is pressed again.
+    let vain = listing.vain.as_ref() == Some(path);
+    let stays = (completion.is_some() || !vain) && !ui.input(|i| i.modifiers.shift);
+    let keys = EventFilter { tab: stays, horizontal_arrows: true, ..EventFilter::default() };
     let field = TextEdit::singleline(path).id(id).hint_text("path").desired_width(f32::INFINITY).event_filter(keys);
     let response = ui.add(field).labelled_by(label.id);
     let typed = purpose.with_extension(typed_path::expand(path));
@@ -87,7 +91,16 @@ pub fn show(
         (_, Some(said)) => RichText::new(said).weak(),
         (_, None) => RichText::new(" "),
     };
+    let said = match vain && trouble.is_none() && !replaces {
+        true => RichText::new(nothing_to_complete(&fitting)).weak(),
+        false => said,
+    };
     ui.add(Label::new(said).wrap());
+    if tab && completion.is_none() && !vain {
+        let vain = Some(path.clone());
+        ui.data_mut(|data| data.insert_temp(key(purpose), Listing { vain, ..listing.clone() }));
+        ui.ctx().request_repaint();
+    }
     let mut changed = completion.filter(|_| tab);
     list(ui, &fitting, path, &mut changed);
     ui.add_space(8.0);
@@ -124,13 +137,23 @@ fn listing(ui: &Ui, path: &str, purpose: Purpose, field: Id) -> Listing {
     let pass = ui.ctx().cumulative_pass_nr();
     let known = ui.data(|data| data.get_temp::<Listing>(key)).filter(|known| known.used + 2 >= pass);
     let has_begun = known.as_ref().is_some_and(|known| known.has_begun) || ui.memory(|m| m.has_focus(field));
+    let vain = known.as_ref().and_then(|known| known.vain.clone()).filter(|vain| vain == path);
     let entries = match known {
         Some(known) if known.folder == folder => known.entries,
         _ => typed_path::entries(&folder, purpose.extensions()),
     };
-    let listing = Listing { folder, entries, used: pass, has_begun };
+    let listing = Listing { folder, entries, used: pass, has_begun, vain };
     ui.data_mut(|data| data.insert_temp(key, listing.clone()));
     listing
+}
+
+/// What Tab says where it stays.
+fn nothing_to_complete(fitting: &[&Entry]) -> &'static str {
+    match fitting {
+        [] => "Nothing here begins so; Tab again goes on.",
+        [_] => "That is all of the name; Tab again goes on.",
+        _ => "Several names begin so: type on, or choose one with Tab.",
+    }
 }
 
 /// What is there that begins as is typed, to be clicked.

@@ -26,6 +26,8 @@ use hands::Hands;
 
 /// Height of the sign that says why a picture is not what is wanted, with what is around it.
 const BADGE: f32 = 58.0;
+/// Seconds after which it is said that something is computed: what is done at once needs no announcement.
+const SLOW: f64 = 0.15;
 /// A message that has less width than this is put elsewhere.
 const LEAST_PILL: f32 = 220.0;
 
@@ -108,8 +110,9 @@ impl Viewport {
         let inks = Overlay::new(ui, rect, camera, &frame.scene, &style);
         let spread = camera.spread(f64::from(2.0 * clicks::NEAR / rect.height()));
         let labels = &session.document.annotations.labels;
-        clicks::take(ui, &response, &inks, session, &frame, spread, commands);
-        self.context.show(&response, &inks, session, &frame, spread, commands);
+        let sight = clicks::Sight { overlay: &inks, session, frame: &frame, spread };
+        clicks::take(ui, &response, sight, commands);
+        self.context.show(&response, sight, commands);
         marks::show(ui, &inks, session, &frame);
         inks.write();
         self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
@@ -146,7 +149,11 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, legend: Option<Rect>) {
                 }
                 (Origin::This, None) => "stale: last good result".to_owned(),
             };
-            badge(ui, rect, visuals.error_fg_color, &title, message);
+            // That was the fault of what was wanted before.
+            match is_slow(session) {
+                Some(_) => badge(ui, rect, visuals.warn_fg_color, &title, "what is wanted now is being computed"),
+                None => badge(ui, rect, visuals.error_fg_color, &title, message),
+            }
         }
         (Some(Stale::Stopped), _) => {
             badge(ui, rect, visuals.warn_fg_color, "stale: stopped", "what is wanted was not computed");
@@ -193,11 +200,15 @@ fn counts(ui: &Ui, rect: Rect, frame: &Frame, beside: f32) -> Rect {
     if apart { rect } else { rect.with_max_y(rect.bottom() - size.y - 6.0) }
 }
 
+/// For how long something has been computed, and which generation, if somebody waits for it.
+fn is_slow(session: &Session) -> Option<(f64, Option<u64>)> {
+    session.progress().filter(|(elapsed, _)| *elapsed > SLOW)
+}
+
 /// What is going on, and what has just happened.
 fn news(ui: &Ui, rect: Rect, session: &Session, legend: Option<Rect>) {
     let visuals = ui.visuals().clone();
-    // What is done at once needs no announcement.
-    if let Some((elapsed, generation)) = session.progress().filter(|(elapsed, _)| *elapsed > 0.15) {
+    if let Some((elapsed, generation)) = is_slow(session) {
         let what = generation.map_or("reading".to_owned(), |g| format!("computing generation {g}"));
         let text = format!("{what}, {} …", seconds(elapsed));
         // Below what is said at the upper edge, if that leaves no room beside it.

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use vv::diagnostic::Severity;
 
+use super::undo::Common;
 use super::{Dialog, Origin, Session};
 use crate::command::{Command, PairAction};
 
@@ -40,7 +41,7 @@ pub(super) struct Before {
     mesh: crate::document::MeshSource,
     fit: bool,
     /// What the other document does as well.
-    echo: Option<Command>,
+    echo: Option<(Common, Command)>,
 }
 
 impl Session {
@@ -156,20 +157,26 @@ impl Session {
     }
 
     /// To be called before a command is carried out.
-    pub(super) fn before(&self, command: &Command) -> Before {
+    pub(super) fn before(&mut self, command: &Command) -> Before {
         let echo = self.beside.as_ref().filter(|beside| beside.steps_linked && walks(command));
         let possible = echo.filter(|beside| {
             let same_play = *command != Command::Play || beside.other.is_playing() == self.is_playing();
             same_play && command.is_enabled(&beside.other)
         });
-        Before { mesh: self.document.mesh.clone(), fit: self.fit, echo: possible.map(|_| command.clone()) }
+        let echo = possible.map(|_| (Common::new(), command.clone()));
+        if self.beside.is_some() {
+            self.do_in_common(echo.as_ref().map(|(common, _)| *common));
+        }
+        Before { mesh: self.document.mesh.clone(), fit: self.fit, echo }
     }
 
     /// What the other document does as well, after a command.
     pub(super) fn link(&mut self, before: Before) {
         let Some(beside) = &mut self.beside else { return };
-        if let Some(command) = before.echo {
+        if let Some((common, command)) = before.echo {
+            beside.other.do_in_common(Some(common));
             beside.other.apply(command);
+            beside.other.do_in_common(None);
         }
         if beside.views_linked && self.document.mesh == before.mesh && !self.asked_to_fit {
             self.fit = before.fit; // another program on the same mesh is looked at as the one before
@@ -191,6 +198,20 @@ impl Session {
         if beside.views_linked {
             self.document.camera = beside.other.document.camera;
             self.flight.clone_from(&beside.other.flight);
+        }
+    }
+
+    /// Undoes what the other document has done in common with this one, as long as both are linked.
+    pub(super) fn undo_beside(&mut self, common: Common) {
+        if let Some(beside) = self.beside.as_mut().filter(|beside| beside.steps_linked) {
+            beside.other.undo_common(common);
+        }
+    }
+
+    /// Does it again.
+    pub(super) fn redo_beside(&mut self, common: Common) {
+        if let Some(beside) = self.beside.as_mut().filter(|beside| beside.steps_linked) {
+            beside.other.redo_common(common);
         }
     }
 

@@ -3,11 +3,12 @@
 //! Three tracks: the text; all else that is computed from (mesh, rule, parameters, generation); and the look that a style
 //! file has taken the place of. In the editor only the text is undone, elsewhere whatever was changed last. They touch
 //! nothing in common, so one can be undone past the other. To switch edges on and off is nobody's work and is not undone;
-//! a style file changes so much at once that it is.
+//! a style file changes so much at once that it is. What two linked documents did together is undone in both.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use vv::mesh::Value;
@@ -45,15 +46,47 @@ pub(super) struct History {
     clock: u64,
     /// Counts programs: another one begins afresh.
     programs: u64,
+    /// What is being done in two documents at once.
+    common: Option<Common>,
+    /// What playing was begun in two documents at once.
+    played: Option<Common>,
+}
+
+/// Tells what was done in two documents at once, alike in both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Common(u64);
+
+impl Common {
+    /// Another one than all before.
+    pub(super) fn new() -> Self {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        Self(COUNT.fetch_add(1, Ordering::Relaxed))
+    }
 }
 
 #[derive(Debug)]
 struct Track<T> {
-    /// What was before each change, with the time at which it was done.
-    past: Vec<(u64, T)>,
-    /// What was after each change that was undone, with the time of that, and that at which it was done.
-    future: Vec<(u64, u64, T)>,
+    past: Vec<Done<T>>,
+    future: Vec<Undone<T>>,
     last: Option<(Kind, Instant)>,
+}
+
+/// A change that was made.
+#[derive(Debug)]
+struct Done<T> {
+    time: u64,
+    before: T,
+    common: Option<Common>,
+}
+
+/// A change that was undone.
+#[derive(Debug)]
+struct Undone<T> {
+    time: u64,
+    after: T,
+    /// When it was made, and with whom.
+    done: u64,
+    common: Option<Common>,
 }
 
 impl<T> Default for Track<T> {
@@ -82,32 +115,41 @@ pub(super) enum Kind {
 }
 
 impl<T> Track<T> {
-    fn record(&mut self, time: u64, kind: Kind, joins: impl FnOnce(&Kind) -> bool, before: T) {
+    fn record(&mut self, change: Done<T>, kind: Kind, joins: impl FnOnce(&Kind) -> bool) {
         let now = Instant::now();
         let soon = |then: &Instant| now.duration_since(*then) < TOGETHER || matches!(kind, Kind::Play(_));
         let joins = self.future.is_empty() && self.last.as_ref().is_some_and(|(last, then)| soon(then) && joins(last));
         self.last = Some((kind, now));
         self.future.clear();
         if !joins {
-            self.past.push((time, before));
+            self.past.push(change);
             if self.past.len() > MOST {
                 self.past.remove(0);
             }
         }
     }
 
-    fn undo(&mut self, time: u64, now: impl FnOnce() -> T) -> Option<T> {
-        let (done, before) = self.past.pop()?;
-        self.future.push((time, done, now()));
+    fn undo(&mut self, time: u64, now: impl FnOnce() -> T) -> Option<Done<T>> {
+        let change = self.past.pop()?;
+        self.future.push(Undone { time, after: now(), done: change.time, common: change.common });
         self.last = None;
-        Some(before)
+        Some(change)
     }
 
-    fn redo(&mut self, now: impl FnOnce() -> T) -> Option<T> {
-        let (_, done, after) = self.future.pop()?;
-        self.past.push((done, now()));
+    fn redo(&mut self, now: impl FnOnce() -> T) -> Option<Undone<T>> {
+        let change = self.future.pop()?;
+        self.past.push(Done { time: change.done, before: now(), common: change.common });
         self.last = None;
-        Some(after)
+        Some(change)
+    }
+
+    /// When the last change was made, 0 for never; likewise when the last one was undone.
+    fn done(&self) -> u64 {
+        self.past.last().map_or(0, |change| change.time)
+    }
+
+    fn undone(&self) -> u64 {
+        self.future.last().map_or(0, |change| change.time)
     }
 }
 
@@ -153,10 +195,11 @@ impl Session {
                 (Kind::Delete(last), Kind::Delete(here)) => last == here || *last == at,
                 _ => false,
             };
-            self.history.text.record(time, kind.clone(), joins, Arc::clone(text));
+            let change = Done { time, before: Arc::clone(text), common: None };
+            self.history.text.record(change, kind.clone(), joins);
             let mut bytes = 0;
-            let fits = |(_, text): &&(u64, Arc<str>)| {
-                bytes += text.len();
+            let fits = |change: &&Done<Arc<str>>| {
+                bytes += change.before.len();
                 bytes <= MOST_BYTES
             };
             let kept = self.history.text.past.iter().rev().take_while(fits).count().max(1);
@@ -165,22 +208,25 @@ impl Session {
         }
         if state != self.state() {
             let kind = kind.unwrap_or(Kind::Other);
-            self.history.state.record(time, kind.clone(), |last| *last == kind && kind != Kind::Other, state);
+            let plays = matches!(kind, Kind::Play(_));
+            let common = if plays { self.history.played } else { self.history.common };
+            let change = Done { time, before: state, common };
+            self.history.state.record(change, kind.clone(), |last| *last == kind && kind != Kind::Other);
         }
     }
 
     /// Remembers how things were seen before a style file came.
     pub(super) fn record_look(&mut self, before: Look) {
         if before != self.look() {
-            let time = self.tick();
-            self.history.look.record(time, Kind::Other, |_| false, before);
+            let change = Done { time: self.tick(), before, common: None };
+            self.history.look.record(change, Kind::Other, |_| false);
         }
     }
 
     /// Forgets the last change if nothing came of it: the way on that failed or was stopped is none to come back from.
     pub(super) fn forget_vain_change(&mut self) {
         let now = self.state();
-        self.history.state.past.pop_if(|(_, before)| *before == now);
+        self.history.state.past.pop_if(|change| change.before == now);
     }
 
     fn tick(&mut self) -> u64 {
@@ -202,58 +248,91 @@ impl Session {
         !history.text.future.is_empty() || !history.state.future.is_empty() || !history.look.future.is_empty()
     }
 
+    /// What is done until the next call is done in another document, too.
+    pub(super) fn do_in_common(&mut self, common: Option<Common>) {
+        self.history.common = common;
+    }
+
+    /// So is what playing does that begins now.
+    pub(super) fn play_in_common(&mut self) {
+        self.history.played = self.history.common;
+    }
+
     pub(super) fn undo(&mut self) {
-        let time = |track: Option<u64>| track.unwrap_or(0);
-        let text = time(self.history.text.past.last().map(|e| e.0));
-        let state = time(self.history.state.past.last().map(|e| e.0));
-        let look = time(self.history.look.past.last().map(|e| e.0));
+        let History { text, state, look, .. } = &self.history;
+        let (text, state, look) = (text.done(), state.done(), look.done());
         if look > text.max(state) {
             let (now, time) = (self.look(), self.tick());
-            if let Some(before) = self.history.look.undo(time, || now) {
-                self.set_look(before);
+            if let Some(change) = self.history.look.undo(time, || now) {
+                self.set_look(change.before);
             }
         } else if text > state {
             self.undo_text(false);
-        } else {
-            let (now, time) = (self.state(), self.tick());
-            if let Some(before) = self.history.state.undo(time, || now) {
-                self.restore(before);
-            }
+        } else if let Some(common) = self.undo_state() {
+            self.undo_beside(common);
         }
     }
 
     pub(super) fn redo(&mut self) {
         // What was undone last comes first, whichever was done first.
-        let time = |track: Option<u64>| track.unwrap_or(0);
-        let text = time(self.history.text.future.last().map(|e| e.0));
-        let state = time(self.history.state.future.last().map(|e| e.0));
-        let look = time(self.history.look.future.last().map(|e| e.0));
+        let History { text, state, look, .. } = &self.history;
+        let (text, state, look) = (text.undone(), state.undone(), look.undone());
         if look > text.max(state) {
             let now = self.look();
-            if let Some(after) = self.history.look.redo(|| now) {
-                self.set_look(after);
+            if let Some(change) = self.history.look.redo(|| now) {
+                self.set_look(change.after);
             }
         } else if text > state {
             self.redo_text(false);
-        } else {
-            let now = self.state();
-            if let Some(after) = self.history.state.redo(|| now) {
-                self.restore(after);
-            }
+        } else if let Some(common) = self.redo_state() {
+            self.redo_beside(common);
+        }
+    }
+
+    /// Returns whether another document did the same.
+    fn undo_state(&mut self) -> Option<Common> {
+        let (now, time) = (self.state(), self.tick());
+        let change = self.history.state.undo(time, || now)?;
+        self.restore(change.before);
+        change.common
+    }
+
+    fn redo_state(&mut self) -> Option<Common> {
+        let now = self.state();
+        let change = self.history.state.redo(|| now)?;
+        self.restore(change.after);
+        change.common
+    }
+
+    /// Undoes what was done in common, if nothing has changed since but the text.
+    pub(super) fn undo_common(&mut self, common: Common) {
+        if self.history.state.past.last().is_some_and(|change| change.common == Some(common)) {
+            let before = self.document.clone();
+            self.undo_state();
+            self.touch(&before);
+        }
+    }
+
+    /// The same for what was undone.
+    pub(super) fn redo_common(&mut self, common: Common) {
+        if self.history.state.future.last().is_some_and(|change| change.common == Some(common)) {
+            let before = self.document.clone();
+            self.redo_state();
+            self.touch(&before);
         }
     }
 
     pub(super) fn undo_text(&mut self, focus: bool) {
         let (now, time) = (Arc::clone(&self.document.program.text), self.tick());
-        if let Some(before) = self.history.text.undo(time, || now) {
-            self.restore_text(before, focus);
+        if let Some(change) = self.history.text.undo(time, || now) {
+            self.restore_text(change.before, focus);
         }
     }
 
     pub(super) fn redo_text(&mut self, focus: bool) {
         let now = Arc::clone(&self.document.program.text);
-        if let Some(after) = self.history.text.redo(|| now) {
-            self.restore_text(after, focus);
+        if let Some(change) = self.history.text.redo(|| now) {
+            self.restore_text(change.after, focus);
         }
     }
 

@@ -18,10 +18,10 @@ const BUTTON: [f32; 2] = [160.0, 28.0];
 pub fn show(ui: &mut Ui, rect: Rect, session: &Session, commands: &mut Vec<Command>) {
     background(ui, rect);
     let why = match session.stale() {
-        Some(Stale::Failed(message)) => message.clone(),
+        Some(Stale::Failed(message)) if super::is_slow(session).is_none() => message.clone(),
         _ if session.is_busy() => return,
         Some(Stale::Stopped) => "stopped".to_owned(),
-        None => "choose a program with its mesh, or drop a file here".to_owned(),
+        _ => "choose a program with its mesh, or drop a file here".to_owned(),
     };
     let drawn = rect.height() > 330.0;
     let height = if drawn { 190.0 + DRAWING } else { 170.0 };

@@ -145,6 +145,37 @@ fn undo_belongs_to_each_document() {
 }
 
 #[test]
+fn what_linked_documents_did_together_is_undone_and_done_again_in_both() {
+    let (step, undo, redo) =
+        ((Modifiers::NONE, Key::S), (Modifiers::COMMAND, Key::Z), (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z));
+    #[track_caller]
+    fn check(window: &mut Harness<'static, App>, (held, key): (Modifiers, Key), expected: (u64, u64)) {
+        window.key_press_modifiers(held, key);
+        settle_both(window);
+        assert_eq!((this(window).1, other(window).1), expected);
+    }
+    let mut window = loop_and_butterfly();
+    let window = &mut window;
+    check(window, step, (1, 1));
+    check(window, step, (2, 2));
+    check(window, undo, (1, 1));
+    check(window, redo, (2, 2));
+    check(window, (Modifiers::COMMAND, Key::F6), (2, 2));
+    check(window, undo, (1, 1));
+    check(window, redo, (2, 2));
+    // What only one did since, is undone there first, and it may be undone in one while both are not linked.
+    pair(window, PairAction::LinkSteps);
+    check(window, step, (3, 2));
+    check(window, undo, (2, 2));
+    check(window, undo, (1, 2));
+    check(window, redo, (2, 2));
+    check(window, step, (3, 2));
+    pair(window, PairAction::LinkSteps);
+    check(window, undo, (2, 2));
+    check(window, undo, (1, 1));
+}
+
+#[test]
 fn either_side_is_closed() {
     let mut window = loop_and_butterfly();
     window.key_press_modifiers(Modifiers::COMMAND, Key::W);

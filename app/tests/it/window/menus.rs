@@ -290,3 +290,46 @@ fn each_menu_of_the_bar_has_a_letter_of_its_own() {
         assert!(window.query_by_label(entry).is_some(), "{letter:?} shows {entry}");
     }
 }
+
+#[test]
+fn a_menu_that_has_no_room_is_scrolled_by_keys_and_wheel_and_never_covers_the_bar() {
+    for (size, menu, first, last) in [
+        ((900.0, 600.0), "Show", "No colours", "Isophotes"),
+        ((900.0, 600.0), "Meshes", "tetrahedron.obj", "No mesh"),
+        ((640.0, 420.0), "Examples", "Gallery…", "paper-sqrt3.vv"),
+    ] {
+        let mut window = octahedron();
+        window.set_size(egui::vec2(size.0, size.1));
+        window.run_steps(3);
+        let bar = window.get_by_label(menu).rect();
+        let in_sight = |window: &Harness<'static, App>, name: &str| {
+            let entry = window.get_by_label(name).rect();
+            entry.top() >= bar.bottom() && entry.bottom() <= size.1
+        };
+        let open = |window: &mut Harness<'static, App>| {
+            window.get_by_label(menu).click();
+            window.run_steps(5);
+        };
+        open(&mut window);
+        assert!(in_sight(&window, first) && !in_sight(&window, last), "{menu} at {size:?}");
+        window.key_press(Key::End);
+        window.run_steps(40);
+        assert!(has_keys(&window).is_some() && in_sight(&window, last), "{menu} by the keys");
+        window.key_press(Key::Home);
+        window.run_steps(40);
+        assert!(in_sight(&window, first), "{menu} back by the keys");
+        press(&mut window, Key::Escape);
+        open(&mut window);
+        window.hover_at(window.get_by_label(first).rect().center());
+        window.step();
+        window.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta: egui::vec2(0.0, -900.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers: Modifiers::NONE,
+        });
+        window.run_steps(40);
+        assert!(in_sight(&window, last), "{menu} by the wheel");
+    }
+}

@@ -72,6 +72,36 @@ fn what_is_in_the_folder_is_offered_and_tab_completes_it() {
 }
 
 #[test]
+fn tab_stays_and_says_so_where_there_is_nothing_to_complete_and_goes_on_when_pressed_again() {
+    let (_folder, path) = folder();
+    let mut window = octahedron();
+    let tab = |window: &mut Harness<'static, App>| {
+        window.key_press(Key::Tab);
+        window.run_steps(3);
+    };
+    for (name, why) in [
+        ("models/x", "Nothing here begins so"),
+        ("models/pawn.obj", "That is all of the name"),
+        ("models/torus", "Several names begin so"),
+    ] {
+        ask(&mut window, Purpose::OpenMesh, &format!("{path}{name}"));
+        type_on(&mut window, name.rsplit('/').next().unwrap());
+        tab(&mut window);
+        says(&window, why);
+        type_on(&mut window, "y");
+        assert_eq!(typed(&window), format!("{path}{name}y"), "the field has the keys");
+        assert!(window.query_by_label_contains(why).is_none());
+        window.key_press(Key::Backspace);
+        tab(&mut window);
+        tab(&mut window);
+        type_on(&mut window, "z");
+        assert_eq!(typed(&window), format!("{path}{name}"), "they went on");
+        window.state_mut().apply(Command::CloseDialog);
+        window.run_steps(3);
+    }
+}
+
+#[test]
 fn a_name_that_is_offered_is_typed_over() {
     let (_folder, path) = folder();
     let mut window = octahedron();

@@ -1,7 +1,7 @@
 //! What is shown is true: whose the keys are, which program made the picture, at which generation it stands, what failed.
 
 use super::*;
-use app::session::{Origin, Purpose};
+use app::session::{Dialog, Origin, Purpose};
 
 fn type_text(window: &mut Harness<'static, App>, text: &str) {
     // Where the keys go, as for one who types.
@@ -285,4 +285,50 @@ fn what_a_former_program_made_is_saved_and_titled_by_its_name() {
     window.run_steps(3);
     window.get_by_label("broken.vv on octahedron.obj, generation 1 of good.vv");
     window.get_by_label("broken.vv on octahedron.obj, nothing computed, has the keys");
+}
+
+#[test]
+fn what_was_wrong_is_not_said_any_more_while_something_else_is_computed() {
+    let mut window = octahedron();
+    press(&mut window, Key::Num1);
+    write(&mut window, "void f(mesh& S) { nothing }");
+    let Some(Stale::Failed(message)) = window.state().session().stale().cloned() else { panic!("it compiles") };
+    assert!(window.query_all_by_label(&message).next().is_some());
+    window.state_mut().apply(Command::Edit("void f(mesh& S) { while (true) { } }".into()));
+    window.state_mut().apply(Command::Run);
+    until(&mut window, "it runs", |s| s.progress().is_some_and(|(_, stepping)| stepping == Some(1)));
+    let began = Instant::now();
+    while window.query_all_by_label("what is wanted now is being computed").next().is_none() {
+        assert!(began.elapsed() < Duration::from_secs(60), "nothing is said of it");
+        window.step();
+    }
+    assert!(window.query_all_by_label(&message).next().is_none(), "that was another text");
+    window.get_by_label("stale: last good result");
+    window.state_mut().apply(Command::Stop);
+}
+
+#[test]
+fn what_is_typed_in_the_frame_in_which_a_dialog_closes_is_for_those_who_get_the_keys() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    type_text(&mut window, "ab");
+    let path = folder.path().join("mine.vv");
+    window.state_mut().session_mut().dialog =
+        Some(Dialog::path(Purpose::SaveProgram, path.display().to_string(), None));
+    window.run_steps(4);
+    let key = |key, modifiers| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+    let typed = [
+        key(Key::Enter, Modifiers::NONE),
+        key(Key::X, Modifiers::NONE),
+        egui::Event::Text("x".to_owned()),
+        key(Key::Z, Modifiers::COMMAND),
+        key(Key::C, Modifiers::NONE),
+        egui::Event::Text("c".to_owned()),
+    ];
+    window.input_mut().events.extend(typed);
+    settle(&mut window);
+    window.run_steps(4);
+    assert_eq!(std::fs::read_to_string(path).unwrap(), format!("{PROGRAM}ab"));
+    assert_eq!(text(&window), format!("{PROGRAM}c"), "letters before were undone, and one is typed");
 }
