@@ -230,7 +230,8 @@ impl App {
         self.session.apply(command);
     }
 
-    fn panels(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    /// Shows them; returns where the picture is.
+    fn panels(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) -> egui::Rect {
         let (reveal, actions) = if self.session.panels.program {
             (self.session.reveal.take(), std::mem::take(&mut self.session.text_actions))
         } else {
@@ -297,7 +298,9 @@ impl App {
         if session.panels.timeline {
             egui::Panel::bottom("timeline").frame(theme::bar(ui)).show(ui, |ui| timeline::show(ui, session, commands));
         }
+        let picture = ui.available_rect_before_wrap();
         self.pictures.show(ui, &mut self.session, commands);
+        picture
     }
 
     /// A frame may take long. What is typed after a key that changes what the next ones mean, waits for the next frame.
@@ -434,8 +437,8 @@ impl eframe::App for App {
             keys::take(ui.ctx(), &self.session, self.editors.current().takes_escape(ui.ctx()), &mut commands);
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
-        self.panels(ui, &mut commands);
-        render_options::show(ui.ctx(), &self.session, &mut commands);
+        let picture = self.panels(ui, &mut commands);
+        render_options::show(ui.ctx(), picture, &self.session, &mut commands);
         if self.session.reference {
             self.reference.show(ui.ctx(), &mut commands);
         }

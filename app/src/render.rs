@@ -25,7 +25,7 @@ use crate::camera::Camera;
 use crate::scene::{Scene, Style};
 use crate::trace;
 
-pub use headless::{Dressing, Headless, put_on, put_on_white, render_image};
+pub use headless::{Dressing, Headless, put_on, render_image};
 pub use target::Target;
 pub use upload::{Uploaded, UploadedArrows, UploadedTint};
 

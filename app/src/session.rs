@@ -470,7 +470,12 @@ impl Session {
             Command::SetAnnotations(_) | Command::ColorBy(_) | Command::LabelBy(_) | Command::ArrowsOf(_) => {
                 self.annotate(command);
             }
-            Command::ShowBy(surface) => self.change_style(|s| s.surface = surface),
+            Command::ShowBy(surface) => {
+                self.change_style(|s| s.surface = surface);
+                if self.shows_flat_lines() {
+                    self.say(Severity::Note, "flat faces break the lines: Smooth (N) joins them");
+                }
+            }
             Command::Cut => self.change_style(|s| s.cut.on = !s.cut.on),
             Command::Grid => self.change_style(|s| s.grid = !s.grid),
             Command::Occlusion => self.change_style(|s| s.occlusion = !s.occlusion),

@@ -144,6 +144,15 @@ impl StyleFile {
         Ok(figures)
     }
 
+    /// The colour that it says lies behind pictures.
+    ///
+    /// # Errors
+    /// If it is none.
+    pub fn backdrop(&self) -> Result<Option<[u8; 3]>, Misfit> {
+        let misfit = |message| Misfit { names: vec!["background".to_owned()], message };
+        self.background.as_deref().map(paper::background).transpose().map_err(misfit)
+    }
+
     /// Writes it.
     ///
     /// # Errors

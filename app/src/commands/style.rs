@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use app::figure::paper;
 use app::files::FileError;
-use app::style_file::{StyleFile, place_of};
+use app::style_file::{Misfit, StyleFile, place_of};
 
 use super::look::{self, Look, Word};
 use super::report::Reporter;
@@ -55,16 +54,14 @@ pub fn look(given: &[Given], reporter: &Reporter) -> Result<Look, Exit> {
 
 fn read(path: &Path) -> Result<Look, FileError> {
     let (file, text) = StyleFile::read(path)?;
-    let wrong = |names: &[&str], message: String| FileError::at(path, place_of(&text, names), message, None);
+    let wrong = |mistake: Misfit| {
+        let names: Vec<&str> = mistake.names.iter().map(String::as_str).collect();
+        FileError::at(path, place_of(&text, &names), mistake.message, None)
+    };
     let mut look = Look { style: file.style, annotations: file.annotations.clone(), ..Look::default() };
     look.notes.labels.clone_from(&look.annotations.labels);
-    if let Some(background) = &file.background {
-        look.background = Some(paper::background(background).map_err(|message| wrong(&["background"], message))?);
-    }
-    look.figure = file.figures().map_err(|mistake| {
-        let names: Vec<&str> = mistake.names.iter().map(String::as_str).collect();
-        wrong(&names, mistake.message)
-    })?;
+    look.background = file.backdrop().map_err(wrong)?;
+    look.figure = file.figures().map_err(wrong)?;
     look.has_page = file.page.is_some();
     Ok(look)
 }

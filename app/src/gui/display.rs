@@ -1,6 +1,6 @@
 //! How the mesh is drawn, and what is shown on it.
 
-use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, Slider, Ui};
+use eframe::egui::{CollapsingHeader, ComboBox, DragValue, Grid, RichText, Slider, Ui};
 use vv::io::COLOR;
 use vv::mesh::Type;
 
@@ -176,6 +176,12 @@ fn surface(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let on = session.document.style.surface == surface;
         if super::widgets::radio(ui, on, command.describe().label).on_hover_ui(|ui| tooltip(ui, &command)).clicked() {
             commands.push(command);
+        }
+    }
+    if session.shows_flat_lines() {
+        ui.add(eframe::egui::Label::new(RichText::new("flat faces break the lines:").weak()).wrap());
+        if ui.link("smooth them").on_hover_ui(|ui| tooltip(ui, &Command::Smooth)).clicked() {
+            commands.push(Command::Smooth);
         }
     }
     ui.add_space(2.0);

@@ -25,6 +25,7 @@ use crate::command::{Command, TextAction};
 use crate::session::{Place, Problem, Reveal, Session};
 
 use change::Change;
+pub use find::matches;
 use page::{Page, byte_of, char_of};
 
 /// Seconds that the pointer rests on a word before it is explained.

@@ -180,10 +180,7 @@ impl Gallery {
         });
         match state {
             Picture::There(texture) => {
-                // Paper at night is not white.
-                let light = if ui.visuals().dark_mode { 215 } else { 255 };
-                let image = egui::Image::new((texture.id(), rect.size())).tint(Color32::from_gray(light));
-                image.corner_radius(radius).paint_at(ui, rect);
+                egui::Image::new((texture.id(), rect.size())).corner_radius(radius).paint_at(ui, rect);
             }
             Picture::Expected => drop(ui.painter().rect_filled(rect, radius, ui.visuals().extreme_bg_color)),
             Picture::Missing => {
@@ -346,6 +343,14 @@ mod tests {
         moves(0, 1, 2, 3); // as far as the row reaches
         moves(0, 1, 3, 5);
         moves(0, -1, 1, 1);
+    }
+
+    #[test]
+    fn pictures_have_nothing_behind_them_in_light_and_dark() {
+        for exhibit in EXHIBITS {
+            let picture = decode(exhibit.picture).unwrap();
+            assert_eq!(picture.pixels[0], Color32::TRANSPARENT, "{}", exhibit.program);
+        }
     }
 
     #[track_caller]

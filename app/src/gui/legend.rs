@@ -18,8 +18,10 @@ const BAR: f32 = 168.0;
 /// All of its width.
 pub const BESIDE: f32 = WIDTH + 34.0;
 const ROW: f32 = 17.0;
-/// The part of a picture that it covers at most; in smaller ones it is a strip.
-const MOST: f32 = 0.14;
+/// The part of a picture that it covers at most, lest it lie over the mesh; in smaller ones it is a strip.
+const MOST: f32 = 0.08;
+/// Height of the histogram over a strip.
+const COUNTS: f32 = 16.0;
 
 /// Shows it in the lower right corner, in a small picture as a strip; with the value under the pointer, if it is over the
 /// mesh. Returns where it is.
@@ -98,7 +100,7 @@ fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<
         (Err(_), _) => 2.0 * 15.0,
         (_, Some(Kind::Classes(_))) => rows.len() as f32 * 15.0,
         (_, Some(Kind::Colors)) => 0.0,
-        _ => 25.0,
+        _ => 25.0 + COUNTS,
     };
     let size = vec2(width + 16.0, 17.0 + below + 10.0);
     let place = Rect::from_min_size(rect.right_bottom() - size - vec2(10.0, 10.0), size);
@@ -136,8 +138,17 @@ fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<
 /// The bar lying down, with the numbers at its ends below it.
 fn strip(ui: &mut Ui, kind: &Kind, legend: &Legend, under: Option<&Under>, font: &FontId) {
     const STEPS: usize = 64;
-    let (bar, _) = ui.allocate_exact_size(vec2(ui.available_width(), 9.0), Sense::hover());
+    let (all, _) = ui.allocate_exact_size(vec2(ui.available_width(), COUNTS + 9.0), Sense::hover());
+    let (counts, bar) = all.split_top_bottom_at_y(all.top() + COUNTS);
     let (painter, ink) = (ui.painter(), ui.visuals().text_color());
+    let fill = ui.visuals().weak_text_color().gamma_multiply(0.6);
+    let wide = counts.width() / legend.histogram.len().max(1) as f32;
+    for (i, part) in parts(legend) {
+        let least = pos2(counts.left() + i as f32 * wide, counts.bottom() - 2.0);
+        let height = (part * (COUNTS - 3.0)).max(1.0);
+        let size = vec2((wide - 0.5).max(0.5), height);
+        painter.rect_filled(Rect::from_min_size(least - vec2(0.0, height), size), 0.0, fill);
+    }
     let step = bar.width() / STEPS as f32;
     for i in 0..STEPS {
         let min = pos2(bar.left() + i as f32 * step, bar.top());
@@ -245,12 +256,10 @@ fn bar(ui: &mut Ui, kind: &Kind, legend: &Legend, under: Option<&Under>) {
         painter.rect_filled(step, 0.0, color32(scale::color(kind, t)));
     }
     painter.rect_stroke(bar, 0.0, ui.visuals().window_stroke, eframe::egui::StrokeKind::Outside);
-    // The square root keeps the few visible beside the many.
-    let most = legend.histogram.iter().copied().max().unwrap_or(0).max(1);
     let fill = ui.visuals().weak_text_color().gamma_multiply(0.6);
     let height = bar.height() / legend.histogram.len().max(1) as f32;
-    for (i, &n) in legend.histogram.iter().enumerate().filter(|(_, n)| **n > 0) {
-        let length = (f64::from(n) / f64::from(most)).sqrt() as f32 * COUNTS;
+    for (i, part) in parts(legend) {
+        let length = part * COUNTS;
         let bottom = bar.bottom() - i as f32 * height;
         let size = vec2(length.max(1.0), (height - 0.5).max(0.5));
         painter.rect_filled(Rect::from_min_size(pos2(bar.left() - 4.0 - length, bottom - height), size), 0.0, fill);
@@ -280,6 +289,14 @@ fn bar(ui: &mut Ui, kind: &Kind, legend: &Legend, under: Option<&Under>) {
         painter.line_segment(line, Stroke::new(3.0, ui.visuals().window_fill));
         painter.line_segment(line, Stroke::new(1.5, text));
     }
+}
+
+/// The classes of the histogram that are not empty, each with its length, 1 for the fullest. The square root keeps the few
+/// visible beside the many.
+fn parts(legend: &Legend) -> impl Iterator<Item = (usize, f32)> {
+    let most = f64::from(legend.histogram.iter().copied().max().unwrap_or(0).max(1));
+    let filled = legend.histogram.iter().enumerate().filter(|(_, n)| **n > 0);
+    filled.map(move |(i, &n)| (i, (f64::from(n) / most).sqrt() as f32))
 }
 
 fn color32([r, g, b]: [u8; 3]) -> Color32 {

@@ -3,16 +3,19 @@
 //! Shows the part of Markdown that the manual uses: headings, paragraphs, lists, tables and blocks of code, with `code`,
 //! **strong** and *emphasised* words.
 
+mod finding;
+
 use std::sync::LazyLock;
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align, Color32, Context, FontFamily, FontId, Frame, Id, Layout, Margin, RichText, ScrollArea, Stroke, TextEdit,
-    TextFormat, TextStyle, Ui, Window, vec2,
+    Align, Color32, Context, FontFamily, FontId, Frame, Id, Key, Layout, Margin, RichText, ScrollArea, Stroke,
+    TextEdit, TextFormat, TextStyle, Ui, Window, vec2,
 };
 
 use super::editor::color;
 use crate::command::Command;
+use finding::Finding;
 
 const MANUAL: &str = include_str!("../../../vv/README.md");
 
@@ -43,6 +46,7 @@ pub struct Reference {
     shown: u64,
     /// The section to bring in sight.
     wanted: Option<usize>,
+    finding: Finding,
 }
 
 impl Reference {
@@ -71,8 +75,23 @@ impl Reference {
         ui.set_max_width(ui.available_width().min(760.0));
         let query = self.query.trim().to_lowercase();
         let fits = |section: &Section| query.is_empty() || section.text().to_lowercase().contains(&query);
-        let field = TextEdit::singleline(&mut self.query).hint_text("find").desired_width(f32::INFINITY);
-        let field = ui.add(field);
+        let count = self.finding.count();
+        let field = ui
+            .horizontal(|ui| {
+                let room = if count.is_some() { 70.0 } else { 0.0 };
+                let wide = ui.available_width() - room;
+                let field = ui.add(TextEdit::singleline(&mut self.query).hint_text("find").desired_width(wide));
+                if let Some(count) = count {
+                    let tip = "Enter goes to the next place, Shift+Enter to the one before";
+                    ui.label(RichText::new(count).small().weak()).on_hover_text(tip);
+                }
+                field
+            })
+            .inner;
+        if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
+            self.finding.step(ui.input(|i| i.modifiers.shift));
+            field.request_focus();
+        }
         // Who has opened it looks for something; what is typed is not meant for the program any more.
         let pass = ui.ctx().cumulative_pass_nr();
         if pass > self.shown + 1 {
@@ -95,21 +114,25 @@ impl Reference {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 7.0;
             let mut found = false;
+            self.finding.begin(&query);
             for (i, section) in SECTIONS.iter().enumerate().filter(|(_, s)| fits(s)) {
                 found = true;
                 ui.add_space(6.0);
-                let heading = ui.label(RichText::new(&section.title).heading().strong());
+                let color = ui.visuals().strong_text_color();
+                let title = TextFormat::simple(TextStyle::Heading.resolve(ui.style()), color);
+                let heading = self.finding.label(ui, LayoutJob::single_section(section.title.clone(), title));
                 if self.wanted == Some(i) {
                     self.wanted = None;
                     heading.scroll_to_me(Some(Align::Min));
                 }
                 for (j, block) in section.blocks.iter().enumerate() {
-                    show_block(ui, (i, j), block);
+                    show_block(ui, (i, j), block, &mut self.finding);
                 }
             }
             if !found {
                 ui.weak("the manual does not speak of that");
             }
+            self.finding.end(ui);
         });
     }
 }
@@ -128,14 +151,14 @@ impl Section {
     }
 }
 
-fn show_block(ui: &mut Ui, id: (usize, usize), block: &Block) {
+fn show_block(ui: &mut Ui, id: (usize, usize), block: &Block, finding: &mut Finding) {
     match block {
-        Block::Paragraph(text) => drop(ui.label(inline(ui, text))),
+        Block::Paragraph(text) => drop(finding.label(ui, inline(ui, text))),
         Block::Item(text) => {
             ui.horizontal_top(|ui| {
                 ui.add_space(4.0);
                 ui.label("•");
-                ui.vertical(|ui| ui.label(inline(ui, text)));
+                ui.vertical(|ui| finding.label(ui, inline(ui, text)));
             });
         }
         Block::Table(rows) => {
@@ -153,7 +176,7 @@ fn show_block(ui: &mut Ui, id: (usize, usize), block: &Block) {
                             let size = vec2(room(column), 0.0);
                             ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
                                 ui.set_width(room(column) - 8.0);
-                                ui.label(inline(ui, cell));
+                                finding.label(ui, inline(ui, cell));
                             });
                             ui.add_space(8.0);
                         }
@@ -176,7 +199,7 @@ fn show_block(ui: &mut Ui, id: (usize, usize), block: &Block) {
                         } else {
                             LayoutJob::simple(text.clone(), font, ui.visuals().weak_text_color(), f32::INFINITY)
                         };
-                        ui.label(job);
+                        finding.label(ui, job);
                     });
                 },
             );
@@ -270,6 +293,13 @@ fn read(text: &str) -> Vec<Section> {
                     rows.push(cells(line));
                 }
             }
+            // Pictures are for pages: a column of them is left out.
+            while rows
+                .iter()
+                .all(|row| row.len() > 1 && row.last().is_some_and(|c| c.is_empty() || c.starts_with("<img")))
+            {
+                rows.iter_mut().for_each(|row| _ = row.pop());
+            }
             blocks.push(Block::Table(rows));
         } else if line.is_empty() || line.starts_with("# ") {
             // a title, or the space between two paragraphs
@@ -341,6 +371,18 @@ mod tests {
                 Block::Output("1".to_owned()),
             ]
         );
+    }
+
+    #[test]
+    fn a_column_of_pictures_is_left_out() {
+        let row = |cells: &[&str]| cells.iter().map(|&cell| cell.to_owned()).collect::<Vec<_>>();
+        let read = |text: &str| read(text).remove(0).blocks.remove(0);
+        let with = "| a | b | |\n|---|---|---|\n| 1 | 2 | <img src=\"x.png\"> |\n";
+        assert_eq!(read(with), Block::Table(vec![row(&["a", "b"]), row(&["1", "2"])]));
+        let without = "| a | |\n|---|---|\n| 1 | 2 |\n";
+        assert_eq!(read(without), Block::Table(vec![row(&["a", ""]), row(&["1", "2"])]));
+        let shown = SECTIONS.iter().all(|section| !section.text().contains("<img"));
+        assert!(shown, "nothing of the manual is the source of a picture");
     }
 
     #[test]

@@ -1,23 +1,23 @@
 //! How things are drawn, in a window over the picture: for those who have put the inspector away.
 
-use eframe::egui::{Align2, Context, Key, Modifiers, ScrollArea, Window, vec2};
+use eframe::egui::{Align2, Context, Key, Modifiers, Rect, ScrollArea, Window, vec2};
 
 use super::display;
 use super::widgets::switch;
 use crate::command::{Command, ViewAction};
 use crate::session::Session;
 
-/// Shows it, if it is open.
-pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
+/// Shows it, if it is open; where it opens it lies over the `picture`, not over the inspector, which tells the same.
+pub fn show(ctx: &Context, picture: Rect, session: &Session, commands: &mut Vec<Command>) {
     if !session.render_options {
         return;
     }
     let mut open = true;
-    let room = ctx.content_rect().height() - 190.0;
+    let room = picture.height() - 70.0;
     Window::new("Render options")
         .open(&mut open)
         .pivot(Align2::RIGHT_TOP)
-        .default_pos(ctx.content_rect().right_top() + vec2(-24.0, 100.0))
+        .default_pos(picture.right_top() + vec2(-12.0, 12.0))
         .default_width(250.0)
         .resizable(false)
         .show(ctx, |ui| {

@@ -1,8 +1,8 @@
 //! The ring of the selected vertex: its neighbours on a circle, in their order, and as text; and as it was before.
 
 use eframe::egui::{
-    Align2, Color32, FontId, Grid, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, TextStyle, Ui, Vec2,
-    WidgetInfo, vec2,
+    Align2, Color32, FontId, Grid, Pos2, Rect, Response, RichText, Role, ScrollArea, Sense, Shape, Stroke, TextStyle,
+    Ui, Vec2, WidgetInfo, vec2,
 };
 use vv::mesh::Vertex;
 
@@ -235,33 +235,40 @@ impl Panel<'_> {
         }
         heading(ui, "Neighbours");
         let properties = mesh.edge_properties();
-        Grid::new(("neighbours", ring.of)).num_columns(4 + properties.len()).spacing([10.0, 2.0]).show(ui, |ui| {
-            for text in ["", "", "length"].into_iter().chain(properties.iter().map(|p| p.name.as_str())) {
-                ui.label(RichText::new(text).small().weak());
-            }
-            ui.label(RichText::new("face").small().weak());
-            ui.end_row();
-            for (i, q) in ring.vertices().enumerate().take(ROWS) {
-                ui.weak((i + 1).to_string());
-                vertex_link(ui, self.session, commands, q, &q.to_string(), Some(&format!("neighbour {q}")));
-                ui.label(self.session.preferences.unit.length(mesh.position(ring.of).distance(mesh.position(q))));
-                for k in 0..properties.len() {
-                    let value = mesh.edge_value(k, ring.of, q);
-                    ui.label(value.map_or_else(String::new, super::selection::value));
-                }
-                let walk = icon(ui, super::widgets::Icon::Walk, &format!("Walk the face at {q}"));
-                if walk
-                    .on_hover_text(format!("Edmonds' walk: {} → {q} → nextto {} in {q} …", ring.of, ring.of))
-                    .clicked()
-                {
-                    commands.push(Command::Inspect(Inspect::Walk([ring.of, q])));
-                }
-                ui.end_row();
-            }
-        });
+        let table = Grid::new(("neighbours", ring.of)).num_columns(4 + properties.len());
+        // As narrow as it gets; wider than the panel it is scrolled, and pushes nothing aside.
+        let table = table.spacing([10.0, 2.0]).min_col_width(16.0);
+        let area = ScrollArea::horizontal().id_salt("neighbours");
+        area.show(ui, |ui| table.show(ui, |ui| self.rows(ui, ring, commands)));
         let count = ring.len;
         if count > ROWS {
             ui.weak(format!("… {} more", count - ROWS));
+        }
+    }
+
+    /// The head of the table of neighbours, and a row for each.
+    fn rows(&self, ui: &mut Ui, ring: &Ring, commands: &mut Vec<Command>) {
+        let mesh = &self.frame.mesh;
+        let properties = mesh.edge_properties();
+        for text in ["", "", "length"].into_iter().chain(properties.iter().map(|p| p.name.as_str())) {
+            ui.label(RichText::new(text).small().weak());
+        }
+        ui.label(RichText::new("face").small().weak());
+        ui.end_row();
+        for (i, q) in ring.vertices().enumerate().take(ROWS) {
+            ui.weak((i + 1).to_string());
+            vertex_link(ui, self.session, commands, q, &q.to_string(), Some(&format!("neighbour {q}")));
+            ui.label(self.session.preferences.unit.length(mesh.position(ring.of).distance(mesh.position(q))));
+            for k in 0..properties.len() {
+                let value = mesh.edge_value(k, ring.of, q);
+                ui.label(value.map_or_else(String::new, super::selection::value));
+            }
+            let walk = icon(ui, super::widgets::Icon::Walk, &format!("Walk the face at {q}"));
+            if walk.on_hover_text(format!("Edmonds' walk: {} → {q} → nextto {} in {q} …", ring.of, ring.of)).clicked()
+            {
+                commands.push(Command::Inspect(Inspect::Walk([ring.of, q])));
+            }
+            ui.end_row();
         }
     }
 }

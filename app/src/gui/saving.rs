@@ -85,7 +85,8 @@ fn fields(ui: &mut Ui, session: &Session, options: &mut PictureOptions) {
         ui.end_row();
         ui.label("Background");
         ui.horizontal_wrapped(|ui| {
-            choice(ui, &mut options.background, Background::AsSeen, "as seen");
+            let of_style = session.backdrop().map(|[r, g, b]| format!("of the style, #{r:02x}{g:02x}{b:02x}"));
+            choice(ui, &mut options.background, Background::AsSeen, of_style.as_deref().unwrap_or("as seen"));
             choice(ui, &mut options.background, Background::White, "white");
             choice(ui, &mut options.background, Background::Transparent, "transparent");
         });

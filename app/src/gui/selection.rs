@@ -1,7 +1,8 @@
 //! What is selected: properties, measures, the ring, the walk.
 
 use eframe::egui::{
-    Align, Context, Frame as UiFrame, Grid, Id, Key, Layout, Margin, Modal, RichText, TextEdit, Ui, vec2,
+    Align, Color32, Context, Frame as UiFrame, Grid, Id, Key, Layout, Margin, Modal, RichText, TextEdit, TextStyle, Ui,
+    vec2,
 };
 use vv::mesh::{Mesh, Value, Vertex};
 
@@ -79,9 +80,20 @@ fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
 fn row_with(ui: &mut Ui, name: &str, value: impl Into<String>, more: impl FnOnce(&mut Ui)) {
     let label = ui.weak(name);
     let value = value.into();
-    let response = ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        ui.add(eframe::egui::Label::new(&value).truncate()).labelled_by(label.id)
-    });
+    let room = ui.available_width();
+    let font = TextStyle::Body.resolve(ui.style());
+    let wide = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    // A vector that has no room has a line for each number: no exponent is cut.
+    let (label_of, layout) = match wide(&value) > room && value.contains(", ") {
+        true => (
+            eframe::egui::Label::new(value.replace(", ", ",\n")).extend().halign(Align::Max),
+            Layout::top_down(Align::Max),
+        ),
+        false => (eframe::egui::Label::new(&value).truncate(), Layout::right_to_left(Align::Center)),
+    };
+    // As high as a line, whatever stood there before.
+    let size = vec2(room, ui.spacing().interact_size.y);
+    let response = ui.allocate_ui_with_layout(size, layout, |ui| ui.add(label_of).labelled_by(label.id));
     response.inner.context_menu(|ui| {
         ui.set_min_width(170.0);
         if menu_entry(ui, true, "Copy value", &value) {

@@ -15,6 +15,7 @@ use super::overlay::Overlay;
 use super::picture::{Picture, Wardrobe};
 use super::widgets::{grouped, seconds};
 use super::{clicks, context, gizmo, labels, legend, marks, messages, theme};
+use crate::camera::Camera;
 use crate::command::{Command, ViewAction};
 use crate::render::{RenderError, Size};
 use crate::scene::{Style, Theme};
@@ -37,6 +38,8 @@ pub struct Viewport {
     hands: Hands,
     labels: labels::Labels,
     context: context::Context,
+    /// What just fitted into a picture of this size.
+    fitted: Option<(Camera, Size)>,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
@@ -52,6 +55,7 @@ impl Viewport {
             hands: Hands::default(),
             labels: labels::Labels::default(),
             context: context::Context::default(),
+            fitted: None,
             wake,
         })
     }
@@ -70,9 +74,12 @@ impl Viewport {
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
         let _span = trace::span("window: viewport");
+        // Nobody has turned or moved it since: it fits into a picture of another size, too.
+        session.fit |= self.fitted.is_some_and(|(fitted, of)| fitted == camera && of != size);
         if session.fit && !session.is_busy() && frame.scene.fits_at_once() {
             session.fit = false;
             let fitted = frame.scene.fit(session.aim(), &style, size.aspect());
+            self.fitted = Some((fitted, size));
             // What was there before is left by gliding; what is new is seen at once.
             if std::mem::take(&mut session.asked_to_fit) {
                 commands.push(Command::View(ViewAction::Glide(fitted)));

@@ -259,11 +259,6 @@ fn average(pixels: &RgbaImage, fine: u32, image: &mut RgbaImage, [left, top]: [u
     }
 }
 
-/// Lays white behind a picture with transparent places.
-pub fn put_on_white(image: &mut RgbaImage) {
-    put_on(image, [255; 3]);
-}
-
 /// Lays a colour behind a picture with transparent places.
 pub fn put_on(image: &mut RgbaImage, color: [u8; 3]) {
     let paper = color.map(|c| to_linear(f32::from(c) / 255.0));
@@ -297,7 +292,7 @@ mod tests {
     #[test]
     fn white_lies_behind_what_is_transparent() {
         let mut image = RgbaImage::from_raw(3, 1, vec![9, 9, 9, 0, 0, 0, 0, 128, 10, 20, 30, 255]).unwrap();
-        put_on_white(&mut image);
+        put_on(&mut image, [255; 3]);
         assert_eq!(image.into_raw(), [255, 255, 255, 255, 187, 187, 187, 255, 10, 20, 30, 255]);
     }
 

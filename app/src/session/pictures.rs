@@ -105,6 +105,12 @@ impl Session {
         self.style_file.figures().unwrap_or_default() // it was read before
     }
 
+    /// What a loaded style says lies behind pictures; the window itself does not change.
+    #[must_use]
+    pub fn backdrop(&self) -> Option<[u8; 3]> {
+        self.style_file.backdrop().unwrap_or_default() // it was read before
+    }
+
     pub(super) fn picture_to(&mut self, path: &Path) -> Result<(), String> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         let format = figure::Format::from_extension(&extension);
@@ -120,11 +126,14 @@ impl Session {
         let options = self.preferences.picture;
         let (size, camera) = (self.picture_size(&options), self.document.camera);
         let seen = self.view.map_or(self.document.style, |(_, style)| style);
-        let style = match options.background {
-            Background::AsSeen => seen,
-            Background::White => Style { transparent: true, theme: Theme::Light, ..seen },
-            Background::Transparent => Style { transparent: true, ..seen },
+        let behind = match options.background {
+            Background::AsSeen => self.backdrop(),
+            Background::White => Some([255; 3]),
+            Background::Transparent => None,
         };
+        let transparent = behind.is_some() || options.background == Background::Transparent;
+        let theme = if options.background == Background::White { Theme::Light } else { seen.theme };
+        let style = Style { transparent: seen.transparent || transparent, theme, ..seen };
         let (annotations, notes) = (self.document.annotations.clone(), self.notes());
         let name = crate::document::file_name(&path);
         self.say(Severity::Note, format!("drawing {name} …"));
@@ -132,8 +141,8 @@ impl Session {
             let failed = |problem: String| format!("{}: {problem}", path.display());
             let mut image =
                 drawn(&frame, (&annotations, &notes), &camera, &style, size).map_err(|e| failed(e.to_string()))?;
-            if options.background == Background::White {
-                render::put_on_white(&mut image);
+            if let Some(color) = behind {
+                render::put_on(&mut image, color);
             }
             let mut bytes = Cursor::new(Vec::new());
             image.write_to(&mut bytes, image::ImageFormat::Png).map_err(|e| failed(e.to_string()))?;
@@ -162,7 +171,7 @@ impl Session {
         };
         let (file, text) =
             StyleFile::read(path).map_err(|error| located(error.place, error.diagnostic.message.clone()))?;
-        file.figures().map_err(|misfit| {
+        file.figures().map(drop).and_then(|()| file.backdrop().map(drop)).map_err(|misfit| {
             let names: Vec<&str> = misfit.names.iter().map(String::as_str).collect();
             located(style_file::place_of(&text, &names), misfit.message)
         })?;

@@ -83,6 +83,13 @@ impl Session {
         self.frame.as_ref().map_or(0, |frame| frame.request.generation)
     }
 
+    /// Whether lines are shown that tell how smooth a surface is, on faces that are drawn flat.
+    #[must_use]
+    pub fn shows_flat_lines(&self) -> bool {
+        let style = self.document.style;
+        style.faces && !style.smooth && style.surface != crate::scene::Surface::Lights
+    }
+
     /// Whether something is computed or about to be.
     #[must_use]
     pub fn is_busy(&self) -> bool {

@@ -94,12 +94,25 @@ impl Session {
         Some(Instant::now() + FRAME)
     }
 
+    /// Who saw all of it before, and not from nearer than that takes, sees all of it from `camera`, too.
+    fn still_whole(&self, camera: Camera) -> Camera {
+        let (Some((size, style)), Some(frame)) = (self.view, &self.frame) else { return camera };
+        if !frame.scene.fits_at_once() {
+            return camera;
+        }
+        let [before, after] = [self.aim(), camera].map(|from| frame.scene.fit(from, &style, size.aspect()));
+        let saw_all = self.aim().distance >= 0.999 * before.distance;
+        if saw_all && camera.distance < after.distance { after } else { camera }
+    }
+
     /// Carries out what concerns the camera.
     pub(super) fn change_view(&mut self, action: ViewAction) {
         let (aim, Navigation { turning, up, .. }) = (self.aim(), self.navigation);
         match action {
-            ViewAction::From(side) => self.glide_to(aim.from_side(side, up)),
-            ViewAction::Orthographic => self.set_camera(Camera { orthographic: !aim.orthographic, ..aim }),
+            ViewAction::From(side) => self.glide_to(self.still_whole(aim.from_side(side, up))),
+            ViewAction::Orthographic => {
+                self.set_camera(self.still_whole(Camera { orthographic: !aim.orthographic, ..aim }));
+            }
             ViewAction::Turn(toward) => {
                 let by = TURN * toward.vector();
                 self.glide_to(match turning {

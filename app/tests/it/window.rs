@@ -12,6 +12,7 @@ mod palette;
 mod paths;
 mod pictures;
 mod reach;
+mod reference;
 mod states;
 mod subdividing;
 mod timeline;

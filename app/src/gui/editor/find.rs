@@ -209,7 +209,8 @@ fn closes(ui: &Ui, field: &Response, wish: &mut Option<Wish>) {
     }
 }
 
-fn matches(text: &str, query: &str, exact: bool) -> Vec<Range<usize>> {
+/// Where `query` stands in a text, in order, none over another; large and small letters are the same but for `exact`.
+pub fn matches(text: &str, query: &str, exact: bool) -> Vec<Range<usize>> {
     if query.is_empty() {
         return Vec::new();
     }

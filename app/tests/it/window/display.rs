@@ -216,3 +216,49 @@ fn a_style_is_saved_and_loaded_into_another_session() {
     assert!(second.notice().is_some_and(|(_, text)| text.ends_with("mine: line 2: nothing is called `egdes` here")));
     assert_eq!(second.document.style, before);
 }
+
+#[test]
+fn lines_of_reflection_on_flat_faces_say_that_smooth_is_wanted() {
+    let mut window = octahedron();
+    window.set_size(egui::vec2(1000.0, 1000.0));
+    window.state_mut().apply(Command::ShowBy(Surface::ReflectionLines));
+    settle(&mut window);
+    let said = |window: &Harness<'static, App>| window.state().session().notice().map(|(_, text)| text.to_owned());
+    assert!(said(&window).unwrap().contains("Smooth"));
+    unfold(&mut window, "Surface");
+    click(&mut window, "smooth them");
+    assert!(window.state().session().document.style.smooth);
+    assert!(window.query_by_label("smooth them").is_none());
+    window.state_mut().apply(Command::ShowBy(Surface::Lights));
+    window.state_mut().apply(Command::Smooth);
+    settle(&mut window);
+    assert!(window.query_by_label("smooth them").is_none(), "light is no line");
+}
+
+#[test]
+fn the_colours_are_explained_beside_the_mesh_and_not_over_it() {
+    let mut window = open(None, None);
+    window.set_size(egui::vec2(1280.0, 720.0));
+    window.run_steps(4);
+    window.state_mut().apply(Command::Fit);
+    window.state_mut().apply(Command::ColorBy(Quantity::Gauss));
+    colored(&mut window);
+    window.run_steps(4);
+    let picture = window.get_by_label("Viewport").rect();
+    let mut titles = window.get_all_by_label("Gaussian curvature").map(|node| node.rect());
+    let title = titles.find(|rect| picture.contains(rect.center())).unwrap();
+    assert!(title.top() > picture.bottom() - 0.15 * picture.height(), "{title} in {picture}");
+}
+
+#[test]
+fn options_of_drawing_open_over_the_picture_and_not_over_the_same_in_the_inspector() {
+    let mut window = octahedron();
+    let inspector = window.get_by_label("Fit view").rect();
+    window.state_mut().apply(Command::View(app::command::ViewAction::RenderOptions));
+    window.run_steps(4);
+    let all: Vec<_> = window.get_all_by_label("Fit view").map(|node| node.rect()).collect();
+    assert_eq!(all.len(), 2);
+    let picture = window.get_by_label("Viewport").rect();
+    let opened = all.iter().find(|rect| **rect != inspector).unwrap();
+    assert!(picture.contains_rect(*opened), "{opened} in {picture}");
+}

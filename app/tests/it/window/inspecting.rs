@@ -366,3 +366,52 @@ fn a_long_broken_orbit_is_seen_whole() {
     let width = egui::Rect::from_points(&places).width();
     assert!(width > 0.5 * viewport.width().min(viewport.height()), "{width} of {viewport}");
 }
+
+#[test]
+fn numbers_of_a_vector_that_have_no_room_beside_each_other_stand_below_each_other() {
+    let obj = PLANE.replace("v 0 0 0", "v 1.23456e-17 -2.34567e-18 3.45678e-17");
+    let (mut window, _folder) = on(&obj, LOOP);
+    let row = |window: &Harness<'static, App>, number: usize| {
+        let vertex = window.get_by(|node| node.label().as_deref() == Some("Vertex") && node.value().is_some());
+        assert_eq!(vertex.value(), Some(format!("v{number}")));
+        let pos = window.get_by(|node| node.label().as_deref() == Some("pos") && node.value().is_some());
+        (pos.value().unwrap(), pos.rect().height() / vertex.rect().height())
+    };
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(2)))));
+    known(&mut window);
+    assert_eq!(row(&window, 2), ("(1, 0, 0)".to_owned(), 1.0));
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(1)))));
+    known(&mut window);
+    let (value, lines) = row(&window, 1);
+    assert_eq!(value, "(1.23456e-17,\n-2.34567e-18,\n3.45678e-17)");
+    assert!(lines > 2.5, "{lines}");
+    let below = |window: &Harness<'static, App>| {
+        let pos = window.get_by(|node| node.label().as_deref() == Some("pos") && node.value().is_some()).rect();
+        window.get_by_label("Ring").rect().top() - pos.bottom()
+    };
+    let room = below(&window);
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(2)))));
+    known(&mut window);
+    assert!(below(&window) <= room + 4.0, "the row is as high as what is in it");
+}
+
+#[test]
+fn what_is_told_of_a_vertex_has_the_width_of_a_narrow_inspector_and_no_more() {
+    let (mut window, _folder) = on(PLANE, "edge { vec along = vec(1, 1, 1); };\nvoid f(mesh& S) { }\n");
+    for width in [1280.0, 900.0] {
+        window.set_size(egui::vec2(width, 600.0));
+        window.run_steps(4);
+    }
+    let margin = |window: &Harness<'static, App>| {
+        let picture = window.get_by_label("Viewport").rect();
+        let heading = window.get_all_by_label("Selection").map(|node| node.rect()).find(|r| r.left() > picture.left());
+        heading.unwrap().left() - picture.right()
+    };
+    let before = margin(&window);
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(2)))));
+    press(&mut window, Key::S);
+    known(&mut window);
+    window.run_steps(4);
+    window.get_by_label("Neighbours");
+    assert_eq!(margin(&window), before);
+}

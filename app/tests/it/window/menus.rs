@@ -296,7 +296,7 @@ fn a_menu_that_has_no_room_is_scrolled_by_keys_and_wheel_and_never_covers_the_ba
     for (size, menu, first, last) in [
         ((900.0, 600.0), "Show", "No colours", "Isophotes"),
         ((900.0, 600.0), "Meshes", "tetrahedron.obj", "No mesh"),
-        ((640.0, 420.0), "Examples", "Gallery…", "paper-sqrt3.vv"),
+        ((640.0, 420.0), "View", "Render options", "Compare"),
     ] {
         let mut window = octahedron();
         window.set_size(egui::vec2(size.0, size.1));

@@ -88,3 +88,34 @@ fn a_name_that_is_of_no_picture_is_refused() {
     window.state_mut().apply(Command::PictureTo(folder.path().join("nowhere/picture.svg")));
     until(&mut window, "it fails", |s| s.notice().is_some_and(|(_, text)| text.contains("nowhere")));
 }
+
+#[test]
+fn a_picture_has_the_colour_behind_it_that_the_style_says_unless_another_one_is_asked_for() {
+    use app::preferences::{Background, PictureOptions, Preferences};
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let mut window = octahedron();
+    std::fs::write(at("style.json"), "{\"background\": \"#102030\"}").unwrap();
+    window.state_mut().session_mut().chosen(Purpose::OpenStyle, at("style.json"));
+    for (background, corner) in [
+        (Background::AsSeen, [0x10, 0x20, 0x30, 255]),
+        (Background::White, [255; 4]),
+        (Background::Transparent, [0; 4]),
+    ] {
+        let picture = PictureOptions { background, ..PictureOptions::default() };
+        let preferences = Preferences { picture, ..window.state().session().preferences };
+        window.state_mut().apply(Command::SetPreferences(preferences));
+        let path = at(&format!("{background:?}.png"));
+        window.state_mut().apply(Command::PictureTo(path.clone()));
+        until(&mut window, "it is saved", |_| path.exists());
+        assert_eq!(image::open(&path).unwrap().into_rgba8().get_pixel(2, 2).0, corner, "{background:?}");
+    }
+    window.state_mut().apply(Command::SavePicture);
+    window.run_steps(4);
+    window.get_by_label("of the style, #102030");
+    window.state_mut().apply(Command::CloseDialog);
+    std::fs::write(at("wrong.json"), "{\n\"background\": \"sky\"}").unwrap();
+    window.state_mut().session_mut().chosen(Purpose::OpenStyle, at("wrong.json"));
+    let said = said(&mut window);
+    assert!(said.contains("line 2") && said.contains("`sky` is no colour"), "{said}");
+}

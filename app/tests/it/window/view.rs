@@ -41,9 +41,9 @@ const ALT: Modifiers = Modifiers::ALT;
 #[test]
 fn sides_are_looked_from_by_menu_and_by_keys() {
     let mut window = octahedron();
-    let before = camera(&window);
     choose(&mut window, "Camera", "Top");
     assert_eq!(camera(&window).side(Up::Y), Some(Side::Top));
+    let before = camera(&window);
     let ctrl_alt = Modifiers::COMMAND | ALT;
     for (modifiers, key, side) in [
         (ALT, Key::Num1, Side::Front),
@@ -62,6 +62,52 @@ fn sides_are_looked_from_by_menu_and_by_keys() {
     view(&mut window, ViewAction::SetUp(Up::Z));
     press_with(&mut window, ALT, Key::Num1);
     assert_eq!(camera(&window).side(Up::Z), Some(Side::Front));
+}
+
+#[test]
+fn what_is_seen_whole_is_seen_whole_in_parallel_lines_and_from_all_sides() {
+    use super::inspecting::{known, seen};
+    let mut window = open(None, None);
+    known(&mut window);
+    let is_whole = |window: &Harness<'static, App>| {
+        let picture = window.get_by_label("Viewport").rect();
+        let control = app::library::MESHES.iter().find(|mesh| mesh.name == "tetrapod.obj").unwrap().text;
+        let corners = control.lines().filter_map(|line| line.strip_prefix("v "));
+        corners.map(|line| line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>()).all(|p| {
+            let at = seen(window, glam::DVec3::new(p[0], p[1], p[2]));
+            picture.contains(at)
+        })
+    };
+    assert!(is_whole(&window));
+    for action in [ViewAction::Orthographic, ViewAction::Orthographic]
+        .into_iter()
+        .chain([Side::Top, Side::Front, Side::Left, Side::Bottom].map(ViewAction::From))
+        .chain([ViewAction::Orthographic])
+        .chain([Side::Top, Side::Isometric, Side::Right].map(ViewAction::From))
+    {
+        view(&mut window, action.clone());
+        known(&mut window);
+        assert!(is_whole(&window), "{action:?}");
+    }
+    // So it is in a window of another size …
+    view(&mut window, ViewAction::Orthographic);
+    window.state_mut().apply(Command::Fit);
+    known(&mut window);
+    window.set_size(egui::vec2(760.0, 700.0));
+    window.run_steps(3);
+    known(&mut window);
+    assert!(is_whole(&window));
+    // … but who has come nearer stays near.
+    view(&mut window, ViewAction::Nearer);
+    view(&mut window, ViewAction::Nearer);
+    known(&mut window);
+    let near = camera(&window).distance;
+    view(&mut window, ViewAction::Orthographic);
+    view(&mut window, ViewAction::From(Side::Top));
+    window.set_size(egui::vec2(1000.0, 700.0));
+    window.run_steps(3);
+    known(&mut window);
+    assert_eq!(camera(&window).distance, near);
 }
 
 #[test]
