@@ -96,6 +96,7 @@ pub const EXHIBITS: &[Exhibit] = exhibits! {
     "sqrt3" "√3" Subdivision Some("genus-2.obj"), None, 2;
     "catmull-clark" "Catmull–Clark" Subdivision Some("elephant.obj"), None, 2;
     "catmull-clark-creases" "Catmull–Clark creases" Subdivision Some("cube-creased.obj"), None, 3;
+    "colors" "Colours, too" Subdivision None, None, 3;
     "doo-sabin" "Doo–Sabin" Subdivision Some("cube-frame.obj"), None, 1;
     "quad-triangle" "Triangles and quads" Subdivision Some("pawn.obj"), None, 2;
     "midedge" "Midedge" Subdivision Some("pawn.obj"), None, 2;

@@ -84,7 +84,8 @@ fn row_with(ui: &mut Ui, name: &str, value: impl Into<String>, more: impl FnOnce
     let font = TextStyle::Body.resolve(ui.style());
     let wide = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
     // A vector that has no room has a line for each number: no exponent is cut.
-    let (label_of, layout) = match wide(&value) > room && value.contains(", ") {
+    let is_long = !ui.is_sizing_pass() && wide(&value) > room; // before the table knows its columns nothing has room
+    let (label_of, layout) = match is_long && value.contains(", ") {
         true => (
             eframe::egui::Label::new(value.replace(", ", ",\n")).extend().halign(Align::Max),
             Layout::top_down(Align::Max),
