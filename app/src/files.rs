@@ -219,10 +219,11 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagno
         return Err(FileError::new(path, "is empty").hint("a mesh file lists vertices and faces"));
     }
     let format = format_of(&bytes);
-    let (mesh, warnings) = vv::io::read(&bytes, format, options).map_err(|error| match error {
+    let misnamed = misnamed(&bytes, format);
+    let (mesh, warnings) = vv::io::read(bytes, format, options).map_err(|error| match error {
         ReadError::Invalid { place, diagnostic } => {
             let error = FileError { path: path.to_owned(), place, diagnostic };
-            match misnamed(&bytes, format) {
+            match misnamed {
                 Some(other) => error.hint(format!("it looks like `.{other}`, which its name should end in")),
                 None => error,
             }

@@ -6,7 +6,7 @@ use app::evaluation::within;
 use clap::Args;
 use serde::Serialize;
 use vv::mesh::Mesh;
-use vv::mesh::faces::faces;
+use vv::mesh::faces::degrees;
 use vv::mesh::isomorphism::isomorphism;
 use vv::mesh::statistics::{Statistics, statistics};
 use vv::stop::{Stop, Stopped};
@@ -80,7 +80,7 @@ pub fn diff(arguments: &Arguments) -> Result<(), Exit> {
 }
 
 fn compare(a: &Mesh, b: &Mesh, tolerance: f64, stop: &Stop) -> Result<Comparison, Stopped> {
-    let of = |mesh: &Mesh| statistics(mesh, &faces(mesh, stop)?, stop);
+    let of = |mesh: &Mesh| statistics(mesh, degrees(mesh, stop)?, stop);
     let differing = differing(&of(a)?, &of(b)?);
     let found = if differing.is_empty() { isomorphism(a, b, tolerance, false, stop)? } else { None };
     let farthest = found.as_ref().and_then(|found| found.farthest);

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use vv::builtins::type_name;
-use vv::mesh::faces::faces;
+use vv::mesh::faces::degrees;
 use vv::mesh::statistics::{Statistics, statistics};
 use vv::mesh::{Mesh, Property, Type};
 
@@ -72,7 +72,7 @@ struct Info {
 pub fn info(arguments: &Arguments) -> Result<(), Exit> {
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
     let (mesh, warnings) = input::mesh(&arguments.mesh, &arguments.importing, &reporter)?;
-    let counted = within(arguments.importing.timeout.0, |stop| statistics(&mesh, &faces(&mesh, stop)?, stop));
+    let counted = within(arguments.importing.timeout.0, |stop| statistics(&mesh, degrees(&mesh, stop)?, stop));
     let statistics = match counted {
         Ok(statistics) => statistics,
         Err(stopped) => return fail(&reporter, Exit::Budget, error(stopped.to_string())),

@@ -22,7 +22,7 @@ use vv::diagnostic::{Diagnostic, Severity};
 use vv::engine::{Engine, Limits, Machine, Settings};
 use vv::ir::FunctionId;
 use vv::mesh::Mesh;
-use vv::mesh::faces::{Faces, faces};
+use vv::mesh::faces::{Degrees, Faces, degrees, faces};
 use vv::mesh::statistics::statistics;
 use vv::source::Sources;
 use vv::stop::Stop;
@@ -454,8 +454,8 @@ impl Run<'_> {
     }
 
     fn count(&self, mesh: &Mesh) -> Result<[usize; 3], Exit> {
-        let faces = self.in_time("finding the faces", |stop| faces(mesh, stop))?;
-        let found = self.in_time("counting", |stop| statistics(mesh, &faces, stop))?;
+        let faces = self.in_time("counting the faces", |stop| degrees(mesh, stop))?;
+        let found = self.in_time("counting", |stop| statistics(mesh, faces, stop))?;
         Ok([found.vertices, found.edges, found.faces])
     }
 
@@ -475,7 +475,13 @@ impl Run<'_> {
             return fail(self.reporter, Exit::Program, diagnostic);
         }
         let finding = Instant::now();
-        made.faces = self.in_time("finding the faces", |stop| faces(mesh, stop))?;
+        // What only counts keeps none of them.
+        let counted = if targets.is_empty() && turns.is_empty() && !on_sheet && reference.is_none() {
+            Some(self.in_time("counting the faces", |stop| degrees(mesh, stop))?)
+        } else {
+            made.faces = self.in_time("finding the faces", |stop| faces(mesh, stop))?;
+            None
+        };
         timings.faces_s = finding.elapsed().as_secs_f64();
 
         let with_picture = reference.is_some_and(Reference::is_picture);
@@ -500,7 +506,8 @@ impl Run<'_> {
         }
         made.picture = outputs.picture;
         if summarised {
-            let statistics = self.in_time("counting", |stop| statistics(mesh, &made.faces, stop))?;
+            let degrees = counted.unwrap_or_else(|| Degrees::from(&made.faces));
+            let statistics = self.in_time("counting", |stop| statistics(mesh, degrees, stop))?;
             timings.total_s = self.began.elapsed().as_secs_f64();
             let summary = Summary::new(statistics, warnings.clone(), timings.clone());
             made.summaries += &match self.plan.has_many() {

@@ -19,6 +19,7 @@ use rustc_hash::FxHashMap;
 
 use super::finder::{Beside, Finder};
 use super::members::Members;
+use super::survey::Histogram;
 use super::{Mesh, Vertex, VertexSet};
 use crate::stop::{Stop, Stopped};
 
@@ -83,12 +84,63 @@ impl Faces {
     }
 }
 
+/// How many corners faces have, without the faces.
+#[derive(Default)]
+pub struct Degrees(pub(super) Histogram);
+
+impl From<&Faces> for Degrees {
+    fn from(faces: &Faces) -> Self {
+        let mut degrees = Histogram::default();
+        faces.iter().for_each(|face| degrees.count(face.len()));
+        Self(degrees)
+    }
+}
+
+/// What is kept of faces.
+trait Keep {
+    /// Makes room for those of a mesh with so many slots: room that is not needed is never touched.
+    fn for_slots(slots: usize) -> Self;
+
+    fn face(&mut self, corners: impl ExactSizeIterator<Item = Vertex>);
+}
+
+impl Keep for Faces {
+    fn for_slots(slots: usize) -> Self {
+        Self { corners: Vec::with_capacity(slots), ends: Vec::with_capacity(slots / 3) }
+    }
+
+    #[inline(always)]
+    fn face(&mut self, corners: impl ExactSizeIterator<Item = Vertex>) {
+        self.corners.extend(corners);
+        self.ends.push(self.corners.len() as u32);
+    }
+}
+
+impl Keep for Degrees {
+    fn for_slots(_: usize) -> Self {
+        Self::default()
+    }
+
+    #[inline(always)]
+    fn face(&mut self, corners: impl ExactSizeIterator<Item = Vertex>) {
+        self.0.count(corners.len());
+    }
+}
+
 /// The faces of the set of `mesh`, see [`faces_of`].
 ///
 /// # Errors
 /// When stopped.
 pub fn faces(mesh: &Mesh, stop: &Stop) -> Result<Faces, Stopped> {
     faces_of(mesh, &mesh.set, stop)
+}
+
+/// How many corners the faces of the set of `mesh` have: as [`faces`] finds them, in no memory of their own.
+///
+/// # Errors
+/// When stopped.
+pub fn degrees(mesh: &Mesh, stop: &Stop) -> Result<Degrees, Stopped> {
+    find(mesh, &mesh.set, stop)
 }
 
 /// The faces of a set of vertices: the orbits that meet no gap and no incomplete neighbour, which is one that does not
@@ -106,6 +158,10 @@ pub fn faces(mesh: &Mesh, stop: &Stop) -> Result<Faces, Stopped> {
 /// # Errors
 /// When stopped.
 pub fn faces_of(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<Faces, Stopped> {
+    find(mesh, set, stop)
+}
+
+fn find<K: Keep>(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<K, Stopped> {
     let mut walker = Walker::new(mesh, Members::new(set, mesh.vertex_count()));
     for v in mesh.vertices() {
         stop.check()?;
@@ -121,10 +177,10 @@ pub fn faces_of(mesh: &Mesh, set: &VertexSet, stop: &Stop) -> Result<Faces, Stop
 /// The face on the left of v→x begins at v only if x and the neighbour that follows x are younger than v, for the face
 /// comes back from there: one comparison of all slots tells. In a triangle each of the two stands beside v in the other's
 /// ring, in a quad the same vertex does in both.
-struct Walker<'a> {
+struct Walker<'a, K> {
     finder: Finder<'a>,
     members: Members,
-    faces: Faces,
+    faces: K,
     /// For each vertex the slots at which faces leave it that were found from older corners, a bit for each of the first
     /// [`BITS`]; above them the slot of the first of these faces, from 1, or [`FAR`].
     left: Vec<u16>,
@@ -136,15 +192,14 @@ struct Walker<'a> {
     visited: Vec<bool>,
 }
 
-impl<'a> Walker<'a> {
+impl<'a, K: Keep> Walker<'a, K> {
     fn new(mesh: &'a Mesh, members: Members) -> Self {
         let heads = mesh.vertices().zip(mesh.heads()).filter(|&(v, _)| members.contains(v));
         let slots = heads.map(|(_, head)| head.len as usize).sum();
         Self {
             finder: Finder::new(mesh),
             members,
-            // Room that is not needed is never touched.
-            faces: Faces { corners: Vec::with_capacity(slots), ends: Vec::with_capacity(slots / 3) },
+            faces: K::for_slots(slots),
             left: vec![0; mesh.vertex_count()],
             far: FxHashMap::default(),
             path: Vec::new(),
@@ -253,8 +308,7 @@ impl<'a> Walker<'a> {
             Walk::Long => self.walk_long(v, leaves_v, stop)?,
         };
         if is_face {
-            self.faces.corners.extend(self.path.iter().map(|&(corner, _)| corner));
-            self.faces.ends.push(self.faces.corners.len() as u32);
+            self.faces.face(self.path.iter().map(|&(corner, _)| corner));
             for i in 0..self.path.len() {
                 let (corner, slot) = self.path[i];
                 self.leave(corner, slot);
@@ -321,8 +375,7 @@ impl<'a> Walker<'a> {
     /// Adds a face, whose corners are left by these slots.
     #[inline(always)]
     fn add<const N: usize>(&mut self, corners: [Vertex; N], slots: [u32; N]) {
-        self.faces.corners.extend_from_slice(&corners);
-        self.faces.ends.push(self.faces.corners.len() as u32);
+        self.faces.face(corners.into_iter());
         for i in 0..N {
             self.leave(corners[i], slots[i]);
         }

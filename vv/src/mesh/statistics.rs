@@ -1,10 +1,10 @@
 //! Counts and invariants of a mesh.
 
 use super::Mesh;
-use super::faces::Faces;
+use super::faces::Degrees;
 use super::finder::Finder;
 use super::members::Members;
-use super::survey::{Histogram, Survey};
+use super::survey::Survey;
 use super::validate::{self, Finding};
 use crate::stop::{Stop, Stopped};
 
@@ -37,11 +37,11 @@ pub struct Statistics {
     pub face_degrees: Vec<(usize, usize)>,
 }
 
-/// Counts; `faces` are those of `mesh`. Cost: linear.
+/// Counts; `faces` are those of `mesh`, or only their [`Degrees`]. Cost: linear.
 ///
 /// # Errors
 /// When stopped.
-pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics, Stopped> {
+pub fn statistics(mesh: &Mesh, faces: impl Into<Degrees> + Send, stop: &Stop) -> Result<Statistics, Stopped> {
     let members = Members::new(&mesh.set, mesh.vertex_count());
     let survey = Survey::new(mesh, &members, stop)?;
     let findings = validate::findings(mesh, &members, &survey, stop)?;
@@ -50,21 +50,18 @@ pub fn statistics(mesh: &Mesh, faces: &Faces, stop: &Stop) -> Result<Statistics,
     let vertices = survey.valences.total();
     let edges = (survey.entries - one_sided) / 2 + one_sided;
     let isolated = survey.valences.zeros();
-    let mut face_degrees = Histogram::default();
-    let (merges, boundary_loops) = rayon::join(
+    let (merges, (Degrees(face_degrees), boundary_loops)) = rayon::join(
         || merges(mesh, &members, one_sided == 0, stop),
-        || {
-            faces.iter().for_each(|face| face_degrees.count(face.len()));
-            boundary_loops(mesh, &members, &survey, stop)
-        },
+        || (faces.into(), boundary_loops(mesh, &members, &survey, stop)),
     );
+    let faces = face_degrees.total();
     let (components, boundary_loops) = (vertices - merges?, boundary_loops?);
-    let euler_characteristic = (vertices + faces.len() + isolated) as i64 - edges as i64;
+    let euler_characteristic = (vertices + faces + isolated) as i64 - edges as i64;
     let handles = 2 * components as i64 - euler_characteristic - boundary_loops as i64;
     Ok(Statistics {
         vertices,
         edges,
-        faces: faces.len(),
+        faces,
         components,
         boundary_loops,
         euler_characteristic,

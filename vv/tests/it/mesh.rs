@@ -7,7 +7,7 @@ use proptest::sample::Index;
 use vv::io::{Format, ReadOptions, read, write};
 use vv::mesh::build::{BuildError, Polygons, build};
 use vv::mesh::close::close;
-use vv::mesh::faces::{Faces, faces};
+use vv::mesh::faces::{Faces, degrees, faces};
 use vv::mesh::statistics::{Statistics, statistics};
 use vv::mesh::validate::{Finding, validate};
 use vv::mesh::{Mesh, Value, Vertex};
@@ -35,7 +35,11 @@ fn all_faces(mesh: &Mesh) -> Faces {
 }
 
 fn count(mesh: &Mesh) -> Statistics {
-    statistics(mesh, &all_faces(mesh), &Stop::new()).unwrap()
+    let stop = Stop::new();
+    let found = statistics(mesh, &all_faces(mesh), &stop).unwrap();
+    let without_faces = statistics(mesh, degrees(mesh, &stop).unwrap(), &stop).unwrap();
+    assert_eq!(found, without_faces);
+    found
 }
 
 fn findings(mesh: &Mesh) -> Vec<Finding> {
@@ -167,7 +171,7 @@ fn counts_of_shapes() {
     let shape = |name: &str| {
         let path = format!("{}/../assets/meshes/{name}", env!("CARGO_MANIFEST_DIR"));
         let format = Format::from_extension(name.rsplit('.').next().unwrap()).unwrap();
-        read(&std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap().0
+        read(std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap().0
     };
     check_counts(&shape("octahedron.obj"), "6 12 8 1 0 2 0 closed");
     check_counts(&shape("dodecahedron.obj"), "20 30 12 1 0 2 0 closed");
