@@ -351,15 +351,14 @@ impl Mesh {
     /// Keeps the vertices of [`Mesh::set`], renumbered densely in order of creation; entries of rings that name others
     /// become gaps, properties that name them null. Returns how many were forgotten.
     ///
-    /// Cost: nothing but a scan where the set is the whole universe and the arena is tight. Where the set is all vertices
-    /// from one on, these move to the beginning of the arrays; else rings are laid out anew in order.
+    /// Cost: nothing where the set is the whole universe. Where it is all vertices from one on, these move to the beginning
+    /// of the arrays; else rings are laid out anew in order.
     pub fn keep_only_set(&mut self) -> usize {
         let n = self.vertex_count();
         let from = self.set.is_all_from(n);
         let members = from.map_or_else(|| self.set.iter().filter(|v| v.index() < n).count(), |first| n - first);
         let forgotten = n - members;
         if forgotten == 0 && self.set.len() == members {
-            self.rings.tidy();
             return 0;
         }
         if let Some(first) = from {

@@ -32,6 +32,7 @@ pub fn close(mesh: &mut Mesh, stop: &Stop) -> Result<Vec<Diagnostic>, Stopped> {
     warnings.extend(forget(mesh, stop)?);
     let members = Members::new(&mesh.set, mesh.vertex_count());
     let survey = Survey::new(mesh, &members, stop)?;
+    mesh.rings.tidy(survey.slots);
     open(mesh, &validate::open_corners(mesh, &members, &survey, stop)?, stop)?;
     let mut findings = validate::one_sided(mesh, &members, &survey, stop)?;
     findings.extend(validate::not_finite(&survey));

@@ -352,12 +352,10 @@ impl Rings {
         if lost != 0 {
             (0..self.len()).filter_map(Vertex::from_index).for_each(|v| self.settle_gaps(v));
         }
-        self.tidy();
     }
 
-    /// Lays the arena out anew if more than half of it is room that no ring uses.
-    pub(super) fn tidy(&mut self) {
-        let used: usize = self.heads.iter().map(|h| h.len as usize).sum();
+    /// Lays the arena out anew if more than half of it is room that no ring uses; rings use so many slots.
+    pub(super) fn tidy(&mut self, used: usize) {
         if self.slots.len() > 2 * used + 64 {
             *self = self.keep(Some);
         }

@@ -13,6 +13,8 @@ use crate::stop::{Stop, Stopped};
 /// What the rings and positions of the members of the set hold. Lists are in order of creation.
 #[derive(Default)]
 pub(super) struct Survey {
+    /// Slots that rings use, gaps included.
+    pub slots: usize,
     /// Entries that name members.
     pub entries: usize,
     /// Sum over these entries: an entry v→x counts f(v) f(x) (f(x) − f(v)), for a function f that scatters, and its twin
@@ -39,6 +41,7 @@ impl Survey {
 
     /// Of two ranges of vertices, the older ones first.
     fn and(mut self, mut other: Self) -> Self {
+        self.slots += other.slots;
         self.entries += other.entries;
         self.balance = self.balance.wrapping_add(other.balance);
         self.torn.append(&mut other.torn);
@@ -88,6 +91,7 @@ impl Survey {
                 survey.with_gaps.push(v);
                 entries = ring.iter().flatten().count();
             }
+            survey.slots += ring.len();
             survey.valences.count(entries);
             survey.entries += entries - outside;
             if outside > 0 {

@@ -107,7 +107,7 @@ fn room_that_nobody_uses_is_given_back() {
     mesh.make(vertex(1), &all).unwrap();
     let before = mesh.bytes();
     mesh.make(vertex(1), &[]).unwrap();
-    mesh.keep_only_set();
+    close(&mut mesh, &Stop::default()).unwrap();
     assert!(mesh.bytes() + 4 * 1900 < before, "the long ring is gone");
     assert!(ring_list(&mesh).starts_with("1: , 2: "));
     // Members that come and go leave no holes behind but a few.

@@ -26,6 +26,9 @@ const ROUNDS: i64 = 48;
 const FEWEST: i64 = 3;
 const MOST: i64 = 16;
 
+/// Bytes by which is asked for what will be written.
+const WRITTEN_AHEAD: i32 = 1024;
+
 /// Where the context has the arrays as they are, and as they were.
 const HEADS: [i32; 2] = [context::HEADS, context::OLD_HEADS];
 const SLOTS: [i32; 2] = [context::SLOTS, context::OLD_SLOTS];
@@ -198,6 +201,14 @@ impl Translator<'_, '_> {
             .map(|field| self.b.ins().uload32(flags, behind, field - context::HEAD_SIZE as i32));
         let bytes = self.b.ins().ishl_imm_u(offset, 2);
         (self.b.ins().iadd(slots, bytes), len)
+    }
+
+    /// Asks for what follows a place that an array is written at, one element after the other: memory that comes from no
+    /// cache, for nobody has read it.
+    pub(super) fn ask_to_write(&mut self, address: Value) {
+        if CAN_PREFETCH {
+            self.prefetch(address, WRITTEN_AHEAD);
+        }
     }
 
     fn prefetch(&mut self, address: Value, offset: i32) {

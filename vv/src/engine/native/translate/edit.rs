@@ -288,7 +288,9 @@ impl<'p> Translator<'_, 'p> {
         let heads = self.regions.heads;
         self.b.ins().store(heads, offset, head, context::HEAD_OFFSET);
         self.b.ins().store(heads, room, head, context::HEAD_CAPACITY);
-        self.slot_address(offset, false)
+        let start = self.slot_address(offset, false);
+        self.ask_to_write(start);
+        start
     }
 
     /// Goes to `slow` where a ring, which is not empty, ends in a gap, or values lie beside rings: if any ring of the mesh

@@ -252,6 +252,8 @@ impl<'p> Translator<'_, 'p> {
         let (_, flags, position) = self.address(Target::Position { v, old: false })?;
         let origin = self.constant(crate::mesh::Value::zero(Type::Vec))?;
         self.store_value(origin, flags, position, 0);
+        self.ask_to_write(head);
+        self.ask_to_write(position);
         for (property, declaration) in self.program.vertex_properties.iter().enumerate() {
             let mut default = self.constant(declaration.default)?;
             if self.mutated(Mutation::CreatesWithoutDefaults) {
