@@ -107,9 +107,10 @@ fn areas_middles_and_normals_of_solids() {
     let off = "double off; forall p in S off = max(off, distance(normal(p), normalize(p$pos))); print off;";
     measured("icosahedron.obj", off, &[0.0]);
     measured("cube.obj", off, &[0.0]);
-    let middle = "double off; forall f in faces S \
-                  off = max(off, distance(normalize(middle(f)), normalize(area(f)))); print off;";
-    measured("dodecahedron.obj", middle, &[0.0]);
+    let middle = "double off, out; forall f in faces S { \
+                  off = max(off, distance(normalize(middle(f)), normalize(area(f)))); \
+                  out = max(out, abs(dot(middle(f) - (any in f)$pos, area(f)))); } print off; print out;";
+    measured("dodecahedron.obj", middle, &[0.0, 0.0]);
 }
 
 /// A closed surface faces all sides alike; five triangles at a corner of the icosahedron face along it.
@@ -134,6 +135,9 @@ fn angles_and_what_follows_from_them() {
     measured("icosahedron.obj", &of_first("edge_weight(p, q)"), &[1.0 / 3f64.sqrt()]);
     measured("icosahedron.obj", &of_first("bend(p, q)"), &[(5f64.sqrt() / 3.0).acos()]);
     measured("octahedron.obj", &of_first("bend(p, q)"), &[(1f64 / 3.0).acos()]);
+    let rim =
+        "double sum; forall p in S forall q in p if (nextto q in p == null) sum += bend(p, q) + bend(q, p); print sum;";
+    measured("cube-open.obj", rim, &[0.0]);
     // The angles of a triangle are half a turn.
     let sum = "double off; forall f in faces S { double a; forall q, r in f a += angle(q, r, nextto r in f); \
                off = max(off, abs(a - pi)); } print off;";
@@ -236,6 +240,31 @@ fn values_are_inherited_as_positions_are_refined_linearly() {
     }
 }
 
+/// Of a cube coloured by its corners at ±1 these keep theirs, edges have the mean of two, faces that of four.
+#[test]
+fn colors_are_refined_with_the_mesh() {
+    let text = "step {
+          forall p in S p$color = p$pos;
+          colors(S);
+          forall p in S print round(1e9 * dot(p$color, p$color)) / 1e9;
+        }";
+    let (_, mut printed) = outcome(&["colors"], text, &shipped("cube.obj"));
+    printed.sort();
+    assert_eq!(printed, [vec!["1"; 6], vec!["2"; 12], vec!["3"; 8]].concat());
+}
+
+#[test]
+fn polygons_become_fine_triangles() {
+    for (mesh, points) in [("pawn.obj", 500), ("grid-open-quads.obj", 300), ("octahedron.obj", 6)] {
+        let text = format!(
+            "step {{ make_fine(S, {points}); int others = 0; \
+             forall f in faces S others += valence f == 3 ? 0 : 1; print count(S) >= {points}, \" \", others; }}"
+        );
+        assert_eq!(outcome(&["fine"], &text, &shipped(mesh)).1, ["true 0"], "{mesh}");
+    }
+    assert_eq!(outcome(&["fine"], "step { make_fine(S, 12); print count(S); }", &Mesh::new()).1, ["12"]);
+}
+
 /// Two components, of which one has nothing to inherit.
 #[test]
 fn what_has_no_known_neighbour_keeps_what_it_has() {
@@ -251,4 +280,51 @@ fn what_has_no_known_neighbour_keeps_what_it_has() {
           print a$heat, b$heat, c$heat, d$heat;
         }";
     assert_eq!(outcome(&["inherit"], text, &Mesh::new()).1, ["1115"]);
+}
+
+/// Old values outlive the refinement: a colour that begins as the position and is refined by the same masks stays it.
+#[test]
+fn colours_can_be_refined_by_the_masks_of_the_scheme() {
+    let text = "vertex { vec color; };
+        static vec vertex_color(vertex p) {
+          double n = valence `p;
+          double w = (5.0/8.0 - pow(3.0/8.0 + cos(tau/n)/4.0, 2.0)) / n;
+          vec sum = (1.0 - n * w) * `p$color;
+          forall q in `p sum += w * `q$color;
+          return sum;
+        }
+        static vec edge_color(vertex p, vertex q) {
+          return 3.0/8.0 * (`p$color + `q$color) + 1.0/8.0 * (`(nextto q in `p)$color + `(prevto q in `p)$color);
+        }
+        void step(mesh& S) {
+          forall p in S p$color = p$pos;
+          mesh old = S;
+          loop(S);
+          double off = 0;
+          forall x in S {
+            ring ends;
+            forall q in x if (is q in old) add q to ends;
+            x$color = is x in old ? vertex_color(x) : edge_color(any in ends, nextto any in ends in ends);
+            off = max(off, distance(x$color, x$pos));
+          }
+          print off < 1e-12;
+        }";
+    assert_eq!(outcome(&["loop"], text, &shipped("tetrapod.obj")).1, ["true"]);
+}
+
+/// After a dual refinement the old vertices, in no set any more, still have their corners as rings.
+#[test]
+fn corners_are_found_from_the_old_vertices_of_a_dual_refinement() {
+    let text = "vertex { int from = -1; };
+        void step(mesh& S) {
+          int n = 0, none = 0;
+          forall p in S { p$from = n; n += 1; }
+          mesh old = S;
+          doo_sabin(S);
+          forall p in old forall c in p c$from = p$from;
+          forall c in S none += c$from < 0 ? 1 : 0;
+          print n, \" \", none;
+        }";
+    assert_eq!(outcome(&["doo-sabin"], text, &shipped("dodecahedron.obj")).1, ["20 0"]);
+    assert_eq!(outcome(&["doo-sabin"], text, &shipped("grid-open-quads.obj")).1, ["49 0"]);
 }
