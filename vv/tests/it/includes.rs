@@ -328,3 +328,16 @@ fn corners_are_found_from_the_old_vertices_of_a_dual_refinement() {
     assert_eq!(outcome(&["doo-sabin"], text, &shipped("dodecahedron.obj")).1, ["20 0"]);
     assert_eq!(outcome(&["doo-sabin"], text, &shipped("grid-open-quads.obj")).1, ["49 0"]);
 }
+
+#[test]
+fn sharpness_fades_by_one_in_a_step_and_ten_is_for_ever() {
+    for (before, after) in [("10", "10 10"), ("2.5", "1.5 1.5"), ("0.5", "0 0")] {
+        let text = format!(
+            "step {{ mesh old = S;
+               forall p in S {{ p$sharpness = {before}; forall q in p (p|q)$sharpness = {before}; }}
+               catmull_clark_creases(S);
+               forall p in old {{ print p$sharpness, \" \", (p|any in p)$sharpness; break; }} }}"
+        );
+        assert_eq!(outcome(&["catmull-clark-creases"], &text, &shipped("cube.obj")).1, [after]);
+    }
+}
