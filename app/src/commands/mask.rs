@@ -50,7 +50,8 @@ pub struct Arguments {
     /// The mask of this vertex of the result only, counted from 1.
     #[arg(long, value_name = "NUMBER", requires = "input", value_parser = count("the number of a vertex", 1..=u32::MAX as usize))]
     vertex: Option<usize>,
-    /// Around one vertex: what is around it. Default: triangles for rules that make triangles of triangles, else quads.
+    /// Around one vertex: what is around it. Default: quads for rules that make quads of quads and
+    /// no triangles of triangles, else triangles.
     #[arg(long, value_enum, value_name = "FACES", conflicts_with = "input")]
     around: Option<Faces>,
     /// Around one vertex: its valence. May be repeated. Default: 3 to 12.
