@@ -1,7 +1,9 @@
 //! The menu bar.
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{Align, Color32, Key, Layout, MenuBar, Response, ScrollArea, Stroke, TextFormat, TextStyle, Ui};
+use eframe::egui::{
+    Align, Color32, Key, Layout, MenuBar, Response, ScrollArea, Stroke, TextFormat, TextStyle, TextWrapMode, Ui,
+};
 
 use super::widgets::{TICK, menu_item};
 use super::{menu_keys, views};
@@ -55,8 +57,10 @@ fn of_bar(ui: &mut Ui, title: LayoutJob, show: impl FnOnce(&mut Ui)) -> Response
 pub fn scrolled(ui: &mut Ui, top: f32, show: impl FnOnce(&mut Ui)) {
     let around = ui.style().spacing.menu_margin.sum().y + 12.0;
     let room = (ui.ctx().content_rect().bottom() - top - around).max(100.0);
-    // Nothing else says that there is more.
-    ui.spacing_mut().scroll.dormant_handle_opacity = 0.5;
+    // Nothing else says that there is more; and the keys of the entries are not covered.
+    let scroll = &mut ui.spacing_mut().scroll;
+    (scroll.dormant_handle_opacity, scroll.floating_allocated_width) = (0.5, 10.0);
+    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
     ScrollArea::vertical().max_height(room).min_scrolled_height(room).show(ui, show);
 }
 
