@@ -65,14 +65,14 @@ impl Survey {
     /// And the largest number that the rings name.
     fn of_those(mesh: &Mesh, range: Range<usize>, is_member: impl Fn(Vertex) -> bool) -> (Self, u32) {
         let mut survey = Self::default();
-        let mut largest = 0;
+        let (mut balance, mut used, mut others, mut gaps, mut largest) = (0_u64, 0, 0, 0, 0);
         let slots = mesh.slots();
-        let arrays = mesh.heads()[range.clone()].iter().zip(&mesh.positions()[range.clone()]);
-        for (v, (head, position)) in range.filter_map(Vertex::from_index).zip(arrays) {
+        let vertices = range.clone().filter_map(Vertex::from_index);
+        for ((v, head), position) in vertices.zip(&mesh.heads()[range.clone()]).zip(&mesh.positions()[range]) {
             if !is_member(v) {
                 continue;
             }
-            let ring = slots.get(head.range()).unwrap_or(&[]);
+            let ring = &slots[head.range()];
             let (mut sum, mut squares, mut outside) = (0_u64, 0_u64, 0);
             for &slot in ring {
                 let is_other = slot.is_some_and(|x| !is_member(x));
@@ -85,23 +85,26 @@ impl Survey {
             }
             let f = scattered(Some(v));
             let differences = squares.wrapping_sub(f.wrapping_mul(sum));
-            survey.balance = survey.balance.wrapping_add(f.wrapping_mul(differences));
+            balance = balance.wrapping_add(f.wrapping_mul(differences));
+            used += ring.len();
             let mut entries = ring.len();
             if let Some(None) = ring.last() {
                 survey.with_gaps.push(v);
                 entries = ring.iter().flatten().count();
+                gaps += ring.len() - entries;
             }
-            survey.slots += ring.len();
             survey.valences.count(entries);
-            survey.entries += entries - outside;
             if outside > 0 {
                 survey.torn.push(v);
+                others += outside;
             }
-            if !position.is_finite() {
+            // What is finite differs from itself by nothing.
+            let nothing = *position - *position;
+            if nothing.x + nothing.y + nothing.z != 0.0 {
                 survey.not_finite.push(v);
             }
         }
-        (survey, largest)
+        (Self { slots: used, entries: used - gaps - others, balance, ..survey }, largest)
     }
 }
 
