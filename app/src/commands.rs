@@ -274,6 +274,11 @@ fn vertices(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "vertices are counted: a whole number such as 1000000".to_owned())
 }
 
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
+    number.ok_or_else(|| "a tolerance is a number from 0 on, such as 1e-9".to_owned())
+}
+
 /// Reads how many of something there are, which is named for a sentence, such as `a valence`.
 fn count<T: Copy + Display + FromStr + PartialOrd>(
     what: &'static str,

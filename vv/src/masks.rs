@@ -44,7 +44,7 @@ pub struct Masks {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// Moving the mesh would not move it along.
-    #[error("the weights of {vertex} sum to {}, not to 1", shown(*.sum))]
+    #[error("the weights of {vertex} sum to {}, not to 1", shown(*.sum, DECIMALS))]
     Sum {
         /// The new vertex.
         vertex: Vertex,
@@ -184,14 +184,16 @@ pub fn fraction(x: f64) -> Option<String> {
     }
 }
 
-/// A weight as people write it: as a [`fraction`] if it is one, else to the twelve decimals that a measurement is good
-/// for, without zeros at their end.
+/// Decimals that a measurement is good for.
+pub const DECIMALS: usize = 12;
+
+/// A weight as people write it: as a [`fraction`] if it is one, else with so many decimals, without zeros at their end.
 #[must_use]
-pub fn shown(weight: f64) -> String {
+pub fn shown(weight: f64, decimals: usize) -> String {
     let weight = weight + 0.0; // -0 is 0 to a reader
     fraction(weight).unwrap_or_else(|| {
-        let decimals = format!("{weight:.12}");
-        if decimals.contains('.') { decimals.trim_end_matches('0').trim_end_matches('.').to_owned() } else { decimals }
+        let text = format!("{weight:.decimals$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     })
 }
 
@@ -233,7 +235,7 @@ mod tests {
             (f64::NEG_INFINITY, "-inf"),
         ];
         for (x, expected) in cases {
-            assert_eq!(shown(x), expected);
+            assert_eq!(shown(x, DECIMALS), expected);
         }
     }
 }

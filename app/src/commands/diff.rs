@@ -13,7 +13,7 @@ use vv::stop::{Stop, Stopped};
 
 use super::info::{counts, json};
 use super::report::{Reporter, write_stdout};
-use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input};
+use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, tolerance};
 
 /// What `vv mesh diff` takes.
 #[derive(Debug, Args)]
@@ -33,11 +33,6 @@ pub struct Arguments {
     importing: Importing,
     #[command(flatten)]
     reporting: Reporting,
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let number: Option<f64> = text.parse().ok().filter(|t| *t >= 0.0);
-    number.ok_or_else(|| "a distance is a number from 0 on, such as 1e-6".to_owned())
 }
 
 /// What was found.

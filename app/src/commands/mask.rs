@@ -13,7 +13,7 @@ use serde::Serialize;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::engine::{Engine, Failure, FailureKind, Limits, Machine, Settings};
 use vv::ir::FunctionId;
-use vv::masks::{Around, Class, Masks, Star, TOLERANCE, fraction, judge, measure, shown};
+use vv::masks::{Around, Class, DECIMALS, Masks, Star, TOLERANCE, fraction, judge, measure, shown};
 use vv::mesh::faces::faces;
 use vv::mesh::{Mesh, Vertex};
 use vv::source::Sources;
@@ -393,6 +393,6 @@ impl Table {
 
 impl Weight {
     fn text(&self) -> String {
-        format!("{}: {}", self.of.join(" "), shown(self.weight))
+        format!("{}: {}", self.of.join(" "), shown(self.weight, DECIMALS))
     }
 }

@@ -33,7 +33,8 @@ use super::picture::{self, Exhibit, Shot};
 use super::reference::{Reference, is_picture};
 use super::report::{Printer, Reporter, write_stdout};
 use super::{
-    DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, count, error, fail, info, input, output, warnings_of,
+    DiagnosticFormat, EXIT_CODES, Exit, Importing, Reporting, count, error, fail, info, input, output, tolerance,
+    warnings_of,
 };
 use cases::Case;
 use plan::{Given, Plan, Sheet};
@@ -536,9 +537,4 @@ fn steps(text: &str) -> Result<u64, String> {
 
 fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("a seed is a whole number from 0 to {}", u64::MAX))
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);
-    number.ok_or_else(|| "a tolerance is a number such as 1e-9".to_owned())
 }

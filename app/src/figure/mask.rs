@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
-use vv::masks::fraction;
+use vv::masks::shown;
 use vv::mesh::triangulate::newell;
 use vv::mesh::{Mesh, Vertex};
 
@@ -90,11 +90,7 @@ pub fn mask_on(mesh: &Mesh, weights: &[(Vertex, f64)], letters: f64) -> Sketch {
 
 /// As a fraction if it is one, with a minus sign.
 fn weight_text(weight: f64) -> String {
-    let text = fraction(weight).unwrap_or_else(|| {
-        let text = format!("{weight:.4}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    });
-    text.replace('-', "−")
+    shown(weight, 4).replace('-', "−")
 }
 
 #[cfg(test)]

@@ -15,6 +15,16 @@ pub(super) enum Of {
     Whole,
 }
 
+impl Of {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Vertices => "the vertices",
+            Self::Edges => "the edges",
+            Self::Whole => "the mesh",
+        }
+    }
+}
+
 /// Why a property is left out.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Why {
@@ -39,6 +49,11 @@ pub(super) fn losses(mesh: &Mesh, format: Format) -> Vec<Diagnostic> {
                 diagnostics.push(warning(of, why, &names, format, in_gltf));
             }
         }
+        if let Some(v) = joined(mesh, of).filter(|_| is_ply(format)) {
+            let (of, files) = (of.name(), files(format));
+            let message = format!("`{v}_x`, `{v}_y` and `{v}_z` of {of} are the vector `{v}` to who reads {files}");
+            diagnostics.push(super::warning(message).hint("other names would stay apart"));
+        }
     }
     let wires = if format == Format::Obj { 0 } else { obj::wires(mesh) };
     if wires > 0 {
@@ -57,13 +72,7 @@ struct Lost<'a> {
 }
 
 fn lost(mesh: &Mesh, format: Format, of: Of) -> Vec<Lost<'_>> {
-    let properties: Vec<(&str, Type)> = match of {
-        Of::Vertices => mesh.vertex_properties().iter().map(name_and_type).collect(),
-        Of::Edges => mesh.edge_properties().iter().map(name_and_type).collect(),
-        Of::Whole => mesh.mesh_properties().iter().map(|(name, value)| (name.as_str(), value.ty())).collect(),
-    };
-    let named = matches!(format, Format::Ply | Format::PlyText | Format::PlyBigEndian);
-    let in_ply = if named { ply::kept(mesh, of) } else { Vec::new() };
+    let in_ply = if is_ply(format) { ply::kept(mesh, of) } else { Vec::new() };
     let holds = |i: usize, name: &str, ty: Type| match format {
         Format::Obj => obj::holds(of, name, ty),
         Format::Off => of == Of::Vertices && color::is_color(name, ty),
@@ -71,12 +80,12 @@ fn lost(mesh: &Mesh, format: Format, of: Of) -> Vec<Lost<'_>> {
         Format::Stl | Format::StlText => false,
         Format::Glb | Format::Gltf => gltf::holds(of, name, ty),
     };
-    let left_out = properties.into_iter().enumerate().filter(|&(i, (name, ty))| !holds(i, name, ty));
+    let left_out = properties(mesh, of).into_iter().enumerate().filter(|&(i, (name, ty))| !holds(i, name, ty));
     let told = left_out.filter(|&(i, _)| tells(mesh, of, i));
     told.map(|(_, (name, ty))| {
         let why = if ty == Type::Vertex {
             Why::Vertices
-        } else if named {
+        } else if is_ply(format) {
             Why::Name
         } else {
             Why::Format
@@ -86,8 +95,27 @@ fn lost(mesh: &Mesh, format: Format, of: Of) -> Vec<Lost<'_>> {
     .collect()
 }
 
-fn name_and_type(property: &Property) -> (&str, Type) {
-    (&property.name, property.values.ty())
+/// Names and types.
+fn properties(mesh: &Mesh, of: Of) -> Vec<(&str, Type)> {
+    let all = |properties| <[Property]>::iter(properties).map(|p| (p.name.as_str(), p.values.ty())).collect();
+    match of {
+        Of::Vertices => all(mesh.vertex_properties()),
+        Of::Edges => all(mesh.edge_properties()),
+        Of::Whole => mesh.mesh_properties().iter().map(|(name, value)| (name.as_str(), value.ty())).collect(),
+    }
+}
+
+fn is_ply(format: Format) -> bool {
+    matches!(format, Format::Ply | Format::PlyText | Format::PlyBigEndian)
+}
+
+/// Of three numbers `v_x`, `v_y` and `v_z`, which PLY cannot tell from a vector, its name.
+fn joined(mesh: &Mesh, of: Of) -> Option<String> {
+    let all = properties(mesh, of);
+    let is_number = |name: String| all.contains(&(name.as_str(), Type::Double));
+    let vectors = all.iter().filter(|(_, ty)| *ty == Type::Double).filter_map(|(name, _)| name.strip_suffix("_x"));
+    let mut joined = vectors.filter(|v| ["_y", "_z"].into_iter().all(|axis| is_number(format!("{v}{axis}"))));
+    joined.next().map(str::to_owned)
 }
 
 /// Whether a property has another value than its default, somewhere.
@@ -113,11 +141,7 @@ fn warning(of: Of, why: Why, names: &[&str], format: Format, in_gltf: bool) -> D
         (Some((last, before)), 0) => format!("{} and {last}", before.join(", ")),
         _ => format!("{} and {more} more", shown.join(", ")),
     };
-    let of = match of {
-        Of::Vertices => "the vertices",
-        Of::Edges => "the edges",
-        Of::Whole => "the mesh",
-    };
+    let of = of.name();
     let (is, it, names) =
         if names.len() == 1 { ("is", "it", "its name stands") } else { ("are", "them", "their names stand") };
     let files = files(format);

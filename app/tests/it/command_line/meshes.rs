@@ -87,5 +87,5 @@ fn meshes_are_compared_whatever_their_order() {
     let object = json(&folder.check("mesh diff octahedron.obj turned.obj --json", 5, "").stdout);
     assert_eq!((&object["same_connectivity"], &object["vertices"]), (&json("true"), &json("[1, 6]")));
     folder.check("mesh diff octahedron.obj none.obj", 3, "none.obj");
-    folder.check("mesh diff octahedron.obj turned.obj --tolerance -1", 2, "a distance is a number from 0 on");
+    folder.check("mesh diff octahedron.obj turned.obj --tolerance -1", 2, "a tolerance is a number from 0 on");
 }

@@ -143,6 +143,29 @@ fn wires_are_written_to_obj_alone() {
 }
 
 #[test]
+fn numbers_that_read_back_as_a_vector_are_named() {
+    let mut mesh = full();
+    for name in ["p_z", "p_x", "q_x", "q_y"] {
+        mesh.declare_edge_property(name, Value::Double(1.0));
+    }
+    let [next, from] = NOWHERE;
+    let before = format!(
+        "`red` and `w_y` of the vertices are not written: their names stand for something else in `.ply` files \
+         (another name would be kept)\n{next}\n{from}"
+    );
+    check(&mesh, Format::Ply, &before);
+    mesh.declare_edge_property("p_y", Value::Double(1.0));
+    check(
+        &mesh,
+        Format::Ply,
+        &format!(
+            "{before}\n`p_x`, `p_y` and `p_z` of the edges are the vector `p` to who reads `.ply` files \
+             (other names would stay apart)"
+        ),
+    );
+}
+
+#[test]
 fn of_many_names_some_are_said() {
     let (mut mesh, _) = read(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", Format::Obj, &ReadOptions::default()).unwrap();
     for i in 0..10 {
