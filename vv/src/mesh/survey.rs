@@ -98,9 +98,7 @@ impl Survey {
                 survey.torn.push(v);
                 others += outside;
             }
-            // What is finite differs from itself by nothing.
-            let nothing = *position - *position;
-            if nothing.x + nothing.y + nothing.z != 0.0 {
+            if !position.is_finite() {
                 survey.not_finite.push(v);
             }
         }
@@ -127,9 +125,10 @@ pub(super) fn in_pieces<T: Send>(
     (0..n.div_ceil(PIECE)).into_par_iter().map(piece).collect()
 }
 
-/// Another number for each vertex, in which nothing is left of their order; 0 for none.
+/// Another number for each vertex, in which nothing is left of their order and sums; 0 for none.
 fn scattered(v: Option<Vertex>) -> u64 {
-    let product = u128::from(number(v)) * 0x9E37_79B9_7F4A_7C15;
+    let x = u64::from(number(v)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let product = u128::from(x) * u128::from(x.wrapping_add(0xBF58_476D_1CE4_E5B9));
     (product >> 64) as u64 ^ product as u64
 }
 
@@ -194,8 +193,11 @@ mod tests {
 
     #[test]
     fn rings_balance_only_where_all_pairs_answer() {
-        check([0, 1, 2, 3, 4]);
-        check([1, 2, 4, 8, 16]);
+        for first in 0..8 {
+            check([1, 2, 3, 4, 5].map(|i| first + i));
+            check([0, 1, 3, 7, 15].map(|i| (first + 1) * i));
+        }
+        check([0, 6, 7, 1, 13]); // the seventh and the first make the eighth
         check([1000, 2000, 3000, 4000, 5000]);
         check([0, 1 << 16, 1 << 24, 1 << 31, u32::MAX as usize - 1]);
     }
