@@ -101,8 +101,12 @@ impl Session {
             return camera;
         }
         let [before, after] = [self.aim(), camera].map(|from| frame.scene.fit(from, &style, size.aspect()));
-        let saw_all = self.aim().distance >= 0.999 * before.distance;
-        if saw_all && camera.distance < after.distance { after } else { camera }
+        let apart = before.pivot.distance(self.aim().pivot) / before.distance;
+        let (nearness, near) = (self.aim().distance / before.distance, 1e-3);
+        // What just fits, fits from elsewhere, too, where its middle is another one.
+        let just_fits = (nearness - 1.0).abs() < near && apart < near;
+        let is_seen = nearness > 1.0 - near;
+        if just_fits || is_seen && camera.distance < after.distance { after } else { camera }
     }
 
     /// Carries out what concerns the camera.

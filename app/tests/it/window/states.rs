@@ -313,22 +313,20 @@ fn what_is_typed_in_the_frame_in_which_a_dialog_closes_is_for_those_who_get_the_
     let mut window = octahedron();
     write(&mut window, PROGRAM);
     type_text(&mut window, "ab");
-    let path = folder.path().join("mine.vv");
-    window.state_mut().session_mut().dialog =
-        Some(Dialog::path(Purpose::SaveProgram, path.display().to_string(), None));
-    window.run_steps(4);
     let key = |key, modifiers| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
-    let typed = [
-        key(Key::Enter, Modifiers::NONE),
-        key(Key::X, Modifiers::NONE),
-        egui::Event::Text("x".to_owned()),
-        key(Key::Z, Modifiers::COMMAND),
-        key(Key::C, Modifiers::NONE),
-        egui::Event::Text("c".to_owned()),
-    ];
-    window.input_mut().events.extend(typed);
-    settle(&mut window);
-    window.run_steps(4);
-    assert_eq!(std::fs::read_to_string(path).unwrap(), format!("{PROGRAM}ab"));
-    assert_eq!(text(&window), format!("{PROGRAM}c"), "letters before were undone, and one is typed");
+    let letter = |name, text: &str| [key(name, Modifiers::NONE), egui::Event::Text(text.to_owned())];
+    let mut save_and = |name: &str, typed: &[egui::Event]| {
+        let path = folder.path().join(name).display().to_string();
+        window.state_mut().session_mut().dialog = Some(Dialog::path(Purpose::SaveProgram, path.clone(), None));
+        window.run_steps(4);
+        window.input_mut().events.push(key(Key::Enter, Modifiers::NONE));
+        window.input_mut().events.extend(typed.iter().cloned());
+        settle(&mut window);
+        window.run_steps(4);
+        (std::fs::read_to_string(path).unwrap(), text(&window).to_owned())
+    };
+    let program = |more: &str| format!("{PROGRAM}{more}");
+    assert_eq!(save_and("one.vv", &letter(Key::X, "x")), (program("ab"), program("abx")));
+    let undone = [&[key(Key::Z, Modifiers::COMMAND)][..], &letter(Key::C, "c")].concat();
+    assert_eq!(save_and("two.vv", &undone), (program("abx"), program("c")), "what was typed before was undone");
 }
