@@ -219,11 +219,10 @@ pub fn read_mesh(path: &Path, options: &ReadOptions) -> Result<(Mesh, Vec<Diagno
         return Err(FileError::new(path, "is empty").hint("a mesh file lists vertices and faces"));
     }
     let format = format_of(&bytes);
-    let misnamed = misnamed(&bytes, format);
-    let (mesh, warnings) = vv::io::read(bytes, format, options).map_err(|error| match error {
+    let (mesh, warnings) = vv::io::read(&bytes, format, options).map_err(|error| match error {
         ReadError::Invalid { place, diagnostic } => {
             let error = FileError { path: path.to_owned(), place, diagnostic };
-            match misnamed {
+            match misnamed(&bytes, format) {
                 Some(other) => error.hint(format!("it looks like `.{other}`, which its name should end in")),
                 None => error,
             }

@@ -72,7 +72,7 @@ fn measure(bencher: Bencher, case: &str, text: &str, mesh: &str, more: u64) {
     let rule = program.default_rule().unwrap();
     let native = Machine::new(Arc::clone(&program), Engine::Native);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../assets/meshes/{mesh}.obj"));
-    let mut mesh = read(std::fs::read(path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0;
+    let mut mesh = read(&std::fs::read(path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0;
     for generation in 1..=steps.parse::<u64>().unwrap() + more {
         mesh = native.run(rule, &mesh, generation, &Settings::default(), &mut Vec::new()).unwrap();
         close(&mut mesh, &Stop::new()).unwrap();

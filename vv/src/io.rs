@@ -22,7 +22,6 @@ mod ply;
 mod stl;
 mod weld;
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::io::Write;
@@ -246,17 +245,11 @@ fn warning(message: impl Into<String>) -> Diagnostic {
 ///
 /// Numbers in texts are doubles, correctly rounded. STL and glTF do not say which triangles share a vertex: there
 /// corners at exactly the same position are one. Cost: linear in the size of the file, whatever counts it announces;
-/// with joining O(n log n). Bytes that are given away are dropped before the mesh is made of the polygons.
+/// with joining O(n log n).
 ///
 /// # Errors
 /// Bytes that are not of the format; a surface that cannot be represented.
-pub fn read<'a>(
-    bytes: impl Into<Cow<'a, [u8]>>,
-    format: Format,
-    options: &ReadOptions,
-) -> Result<(Mesh, Vec<Diagnostic>), ReadError> {
-    let text = bytes.into();
-    let bytes = &*text;
+pub fn read(bytes: &[u8], format: Format, options: &ReadOptions) -> Result<(Mesh, Vec<Diagnostic>), ReadError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(invalid(None, "the file is empty"));
     }
@@ -267,7 +260,6 @@ pub fn read<'a>(
         Format::Stl | Format::StlText => stl::read(bytes, &options.stop)?,
         Format::Glb | Format::Gltf => gltf::read(bytes, &options.stop)?,
     };
-    drop(text);
     let no_faces = polygons.is_empty();
     let (mesh, repairs) = build::build(polygons, options.strict, &options.stop)?;
     diagnostics.extend(repairs);

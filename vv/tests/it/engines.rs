@@ -148,7 +148,7 @@ fn the_assets_run_the_same() {
     let meshes: Vec<_> = assets("meshes", "obj")
         .into_iter()
         .map(|path| {
-            (path.clone(), read(std::fs::read(&path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0)
+            (path.clone(), read(&std::fs::read(&path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0)
         })
         .collect();
     for path in assets("programs", "vv") {

@@ -366,7 +366,7 @@ fn assets() -> impl Iterator<Item = (String, Mesh)> {
     let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
     paths.map(|path| {
         let format = Format::from_extension(path.extension().unwrap().to_str().unwrap()).unwrap();
-        let (mesh, diagnostics) = read(std::fs::read(&path).unwrap(), format, &ReadOptions::default()).unwrap();
+        let (mesh, diagnostics) = read(&std::fs::read(&path).unwrap(), format, &ReadOptions::default()).unwrap();
         assert_eq!(diagnostics, [], "{}", path.display());
         (path.display().to_string(), mesh)
     })

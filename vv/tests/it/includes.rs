@@ -16,7 +16,7 @@ fn assets(folder: &str) -> PathBuf {
 }
 
 fn shipped(name: &str) -> Mesh {
-    read(std::fs::read(assets("meshes").join(name)).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0
+    read(&std::fs::read(assets("meshes").join(name)).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0
 }
 
 /// Runs a program that includes the files that are named, by its default rule, on a mesh.

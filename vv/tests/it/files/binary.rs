@@ -43,7 +43,7 @@ fn binary_ply_is_read_in_both_orders() {
     for big in [false, true] {
         check(&ply(big), Format::Ply, "1 2 3");
         check_values(&ply(big), Format::Ply, "k: 1 -2 300");
-        let (mesh, _) = read(ply(big), Format::Ply, &ReadOptions::default()).unwrap();
+        let (mesh, _) = read(&ply(big), Format::Ply, &ReadOptions::default()).unwrap();
         assert_eq!(mesh.positions()[1].to_array(), [1.5, 0.0, 0.0]);
     }
 }

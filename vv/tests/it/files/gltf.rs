@@ -52,7 +52,7 @@ fn check(change: impl FnOnce(&mut Json), expected: &str) {
 
 #[track_caller]
 fn positions(change: impl FnOnce(&mut Json)) -> Vec<[f64; 3]> {
-    let (mesh, _) = read(changed(change), Format::Gltf, &ReadOptions::default()).unwrap();
+    let (mesh, _) = read(&changed(change), Format::Gltf, &ReadOptions::default()).unwrap();
     mesh.positions().iter().map(|p| p.to_array()).collect()
 }
 
@@ -130,7 +130,7 @@ fn strips_and_fans_are_triangles() {
 
 #[test]
 fn sparse_values_replace_others() {
-    let (mesh, _) = read(points(5, 1), Format::Gltf, &ReadOptions::default()).unwrap();
+    let (mesh, _) = read(&points(5, 1), Format::Gltf, &ReadOptions::default()).unwrap();
     assert_eq!(mesh.positions()[1].to_array(), [5.0, 6.0, 7.0]);
     assert_eq!(mesh.positions()[2].to_array(), [0.0, 1.0, 0.0]);
 }
@@ -218,7 +218,7 @@ fn errors_say_what_is_wrong() {
 
 #[test]
 fn glb_chunks_are_checked() {
-    let (mesh, _) = read(changed(|_| {}), Format::Gltf, &ReadOptions::default()).unwrap();
+    let (mesh, _) = read(&changed(|_| {}), Format::Gltf, &ReadOptions::default()).unwrap();
     let glb = written(&mesh, Format::Glb);
     assert_eq!(outcome(&glb, Format::Glb, false), "1 2 3");
     assert_eq!(glb.len() % 4, 0);
@@ -243,11 +243,11 @@ fn values_and_colours_come_back() {
         0 0 0 1 1 2 3 255 128 0\n1 0 0 2 0 0 0 1 2 3\n0 1 0 3 -1 0 0.25 0 255 51\n3 0 1 2\n";
     let (mesh, _) = read(text.as_bytes(), Format::Ply, &ReadOptions::default()).unwrap();
     for format in [Format::Glb, Format::Gltf] {
-        let (mut again, diagnostics) = read(written(&mesh, format), format, &ReadOptions::default()).unwrap();
+        let (mut again, diagnostics) = read(&written(&mesh, format), format, &ReadOptions::default()).unwrap();
         assert_eq!(diagnostics, []);
         // In the order of the names in the file, colours first, in 32 bits, which bytes survive.
         again.declare_vertex_property("age", vv::mesh::Value::Int(0));
-        let (again, _) = read(written(&again, Format::PlyText), Format::Ply, &ReadOptions::default()).unwrap();
+        let (again, _) = read(&written(&again, Format::PlyText), Format::Ply, &ReadOptions::default()).unwrap();
         let sorted = |text: String| {
             let mut lines: Vec<_> = text.lines().map(str::to_owned).collect();
             lines.sort();

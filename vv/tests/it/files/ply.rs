@@ -201,7 +201,7 @@ fn a_face_of_many_corners_is_written_and_read() {
     (0..n).for_each(|i| text += &format!(" {i}"));
     let (mesh, _) = read(text.as_bytes(), Format::Off, &ReadOptions::default()).unwrap();
     for format in [Format::Ply, Format::PlyText, Format::PlyBigEndian] {
-        let (again, _) = read(written(&mesh, format), format, &ReadOptions::default()).unwrap();
+        let (again, _) = read(&written(&mesh, format), format, &ReadOptions::default()).unwrap();
         assert_eq!(face_list(&again), face_list(&mesh));
     }
 }

@@ -162,7 +162,7 @@ fn names_that_would_clash_in_a_file_do_not_spoil_it() {
     mesh.declare_edge_property("color", half);
     mesh.declare_edge_property("x", Value::Double(1.5));
     mesh.declare_mesh_property("blue", Value::Int(3));
-    let (back, _) = read(written(&mesh, Format::Ply), Format::Ply, &ReadOptions::default()).unwrap();
+    let (back, _) = read(&written(&mesh, Format::Ply), Format::Ply, &ReadOptions::default()).unwrap();
     let names = |properties: &[Property]| properties.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(back.vertex_properties()), ["color", "v"]);
     assert_eq!(names(back.edge_properties()), ["color", "x"]);

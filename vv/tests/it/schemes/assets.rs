@@ -117,7 +117,7 @@ fn every_program_runs_on_every_mesh_it_is_for() {
         .iter()
         .filter_map(|path| {
             let format = Format::from_extension(path.extension()?.to_str()?)?;
-            let (mesh, warnings) = read(std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap();
+            let (mesh, warnings) = read(&std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap();
             assert!(warnings.is_empty(), "{}: {warnings:?}", path.display());
             Some((name(path), mesh))
         })
