@@ -171,7 +171,7 @@ fn counts_of_shapes() {
     let shape = |name: &str| {
         let path = format!("{}/../assets/meshes/{name}", env!("CARGO_MANIFEST_DIR"));
         let format = Format::from_extension(name.rsplit('.').next().unwrap()).unwrap();
-        read(std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap().0
+        read(&std::fs::read(path).unwrap(), format, &ReadOptions::default()).unwrap().0
     };
     check_counts(&shape("octahedron.obj"), "6 12 8 1 0 2 0 closed");
     check_counts(&shape("dodecahedron.obj"), "20 30 12 1 0 2 0 closed");
