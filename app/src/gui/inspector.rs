@@ -15,12 +15,15 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     area.show(ui, |ui| {
         heading(ui, "Mesh");
         ui.horizontal(|ui| {
-            ui.add(egui::Label::new(mesh_name(session)).truncate());
+            // The button first: the name has what is left.
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let response = ui.button("Open…").on_hover_text("open a mesh file");
                 if response.clicked() {
                     commands.push(Command::Choose(Purpose::OpenMesh));
                 }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    ui.add(egui::Label::new(mesh_name(session)).truncate());
+                });
             });
         });
         ui.separator();

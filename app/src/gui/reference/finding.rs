@@ -19,6 +19,8 @@ pub struct Finding {
     chosen: usize,
     /// It shall be brought in sight.
     go: bool,
+    /// Where it was met on the page.
+    met: Option<Rect>,
 }
 
 impl Finding {
@@ -39,8 +41,11 @@ impl Finding {
         }
     }
 
-    /// Ends the page.
+    /// Ends the page, in the area that moves it.
     pub fn end(&mut self, ui: &Ui) {
+        if let Some(rect) = self.met.take() {
+            ui.scroll_to_rect(rect, None);
+        }
         if self.all != self.passed {
             self.all = self.passed;
             ui.ctx().request_repaint(); // the count stands above
@@ -85,7 +90,10 @@ impl Finding {
                 let edge = Stroke::new(1.2, color);
                 marks.push(Shape::rect_stroke(rect.expand(1.0), 2.0, edge, StrokeKind::Outside));
                 if std::mem::take(&mut self.go) {
-                    ui.scroll_to_rect(rect.expand2(vec2(20.0, AROUND)), None);
+                    let rect = rect.expand2(vec2(20.0, AROUND));
+                    // A block of code that is moved sideways keeps what is asked of it, up and down as well, to itself.
+                    ui.scroll_to_rect(rect, None);
+                    self.met = Some(rect);
                 }
             }
         }

@@ -32,3 +32,14 @@ fn what_is_looked_for_is_counted_and_brought_in_sight_one_after_the_other() {
     look_for(&mut window, "no such word at all");
     window.get_by_label("none");
 }
+
+#[test]
+fn what_is_found_in_a_block_of_code_is_brought_in_sight_too() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::Reference);
+    window.run_steps(6);
+    look_for(&mut window, "edge_width");
+    let field = window.get_by_label("Find in the reference").rect();
+    let found = window.get_by_label_contains("edge_width").rect();
+    assert!(found.bottom() > field.bottom() && found.top() < 700.0, "{found}");
+}

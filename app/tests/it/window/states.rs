@@ -197,6 +197,18 @@ fn messages_and_signs_leave_the_legend_and_the_surface_free() {
 }
 
 #[test]
+fn the_name_of_a_mesh_leaves_its_button_free() {
+    let mut window = octahedron();
+    window.set_size(egui::vec2(900.0, 600.0));
+    window.state_mut().apply(Command::UseMesh(MeshSource::Empty));
+    window.state_mut().apply(Command::OpenExample("coral.vv"));
+    settle(&mut window);
+    window.run_steps(3);
+    let (name, button) = (window.get_by_label("made by the program").rect(), window.get_by_label("Open…").rect());
+    assert!(name.right() <= button.left(), "{name} {button}");
+}
+
+#[test]
 fn a_style_that_is_loaded_is_one_step_to_undo_and_figures_go_by_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
