@@ -96,7 +96,8 @@ pub fn json(object: &impl Serialize) -> String {
 /// What is counted, each with its name.
 pub fn counts(statistics: &Statistics) -> [(&'static str, String); 7] {
     let pairs = |pairs: &[(usize, usize)]| {
-        pairs.iter().map(|(what, count)| format!("{what}: {count}")).collect::<Vec<_>>().join(", ")
+        let list = pairs.iter().map(|(what, count)| format!("{what}: {count}")).collect::<Vec<_>>().join(", ");
+        if list.is_empty() { "none".to_owned() } else { list }
     };
     [
         ("vertices", statistics.vertices.to_string()),

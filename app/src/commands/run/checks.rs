@@ -70,8 +70,7 @@ pub fn what_to_apply(
     let last = arguments.generations.as_ref().map(plan::Generations::last);
     let steps = arguments.steps.or(last).unwrap_or(u64::from(rule.is_some()));
     if rule.is_none() && steps > 0 {
-        let diagnostic =
-            error(format!("{name} has no rule to apply {steps} times, only `start`")).hint("leave out `-n`");
+        let diagnostic = error(format!("{name} has no rule to apply, only `start`")).hint("leave out `-n`");
         return Err((Exit::Usage, diagnostic.into()));
     }
     if program.start.is_none() && arguments.input.is_empty() {

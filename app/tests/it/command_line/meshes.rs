@@ -16,6 +16,13 @@ fn info_is_a_table_or_an_object() {
 }
 
 #[test]
+fn info_of_wires_says_that_there_are_no_faces() {
+    let folder = Folder::with(&[("wire.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n")]);
+    let table = folder.check("mesh info wire.obj", 0, "").stdout;
+    assert!(table.contains("\nface degrees          none\n"), "{table}");
+}
+
+#[test]
 fn info_says_which_values_a_program_can_declare() {
     let text = "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt crease 2/1/0 0 1 2\nt corner 1/1/0 2 3\n";
     let folder = Folder::with(&[("m.obj", text)]);

@@ -42,7 +42,7 @@ fn a_command_line_that_cannot_be_meant_so_says_why() {
         ("run move.vv -i octahedron.obj -o x_{n}.obj -o ./x_1.obj", "`-o ./x_1.obj` would be written more than once"),
         ("run move.vv -i octahedron.obj -o - --format obj --summary json", "both need stdout"),
         ("run move.vv -i octahedron.obj --rule stil", "no rule `stil`\n`shift`, `still` and `step`\n--rule still"),
-        ("run triangle.vv -n 2", "triangle.vv has no rule to apply 2 times, only `start`"),
+        ("run triangle.vv -n 2", "triangle.vv has no rule to apply, only `start`\nleave out `-n`"),
         ("run triangle.vv --rule start", "triangle.vv has no rule `start`\nit has only `start`"),
         ("mesh convert square.off", "nothing says where to write\n-o FILE"),
         ("mesh", "info"),
