@@ -85,7 +85,7 @@ fn colors(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
         let digits = (3.0 - (high - low).abs().log10().floor()).clamp(0.0, 12.0) as usize;
         let speed = legend.extremes.map_or(0.01, |[a, b]| ((b - a) / 300.0).max(1e-9));
         let set = |range| Command::SetAnnotations(Annotations { range, ..session.document.annotations.clone() });
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             let (mut from, mut to) = (low, high);
             let first = ui.add(DragValue::new(&mut from).speed(speed).max_decimals(digits));
