@@ -10,7 +10,8 @@
 //! be made executable; then the interpreter runs it.
 //!
 //! A stop is asked for at every round of a loop and at every call: a load and a branch that is never taken, one to two per
-//! cent of a step of the paper's Loop listing. Loops round one ring that only compute are over too soon to ask.
+//! cent of a step of the paper's Loop listing. Loops round one ring without loops and calls in them are over too soon to
+//! ask, but for what they leave to the runtime, which takes longer where rings are long: that asks.
 
 mod ahead;
 mod context;
