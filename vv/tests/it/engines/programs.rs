@@ -230,6 +230,8 @@ pub const NEW: [&[&str]; 2] = [
         "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; \
          for (int i = 0; i < 20; i++) { vertex z; splice z after n in x; print nextto z in x, prevto n in x; n = z; } \
          forall q in x { erase q from x; print valence x; forall r in x print r; } forall q in y print q;",
+        "splice null after b in a; vertex x, y; make {b, c} nb_of x; erase b from x; erase c from x; splice y after b in x; \
+         splice y before c in x; print valence x, y; make {b, c} nb_of x; splice y after b in x; print nextto b in x;",
         "forall p in a { vertex q = nextto p in a; print p < c || q < c, p < c && q < c, p > c || q > c, p > c && q > c; }",
         "vertex x, y; make {a} nb_of x; make {b, c, a} nb_of y; vertex n = a; splice null after b in a; \
          for (int i = 0; i < 20; i++) { vertex z; splice z after n in x; if (i % 3) splice z before b in a; n = z; } \

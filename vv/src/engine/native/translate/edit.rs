@@ -269,6 +269,8 @@ impl<'p> Translator<'_, 'p> {
         self.continue_in(ask);
         let long = self.b.ins().icmp_imm_s(IntCC::UnsignedGreaterThan, ring.len, width - less);
         self.leave_if(long, longer);
+        let empty = self.b.ins().icmp_imm_s(IntCC::Equal, ring.len, 0);
+        self.leave_if(empty, slow); // it has no last slot to look at
         self.leave_if_it_ends_in_a_gap(ring, slow);
         self.b.ins().jump(next, &[]);
         self.continue_in(next);
