@@ -10,12 +10,10 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use vv::diagnostic::Diagnostic;
 use vv::engine::{Failure, FailureKind, Limits, Machine, Output, Settings};
 use vv::ir::{FunctionId, Program};
-use vv::mesh::faces::faces;
 use vv::mesh::{Mesh, close};
-use vv::source::FileId;
 use vv::stop::{Stop, Stopped};
 
-use crate::gallery::headline;
+use crate::claim::Claim;
 use crate::inspect::lineage::Survivors;
 use crate::trace;
 
@@ -24,6 +22,8 @@ use crate::trace;
 pub struct Generation {
     /// The mesh.
     pub mesh: Mesh,
+    /// What the rule is not for, see [`Claim`]; only the first step looks for it.
+    pub unfit: Option<Diagnostic>,
     /// What closing the step found.
     pub warnings: Vec<Diagnostic>,
     /// Which of its vertices were vertices of the one before.
@@ -50,8 +50,8 @@ pub fn first(
     }
 }
 
-/// Generation `generation`, made of the one before by `rule`. What goes wrong with a program for triangle meshes says so
-/// if this was none.
+/// Generation `generation`, made of the one before by `rule`. What goes wrong with a rule for triangle meshes says so if
+/// this was none.
 ///
 /// # Errors
 /// As [`Machine::run`]; `mesh` is as it was.
@@ -67,9 +67,7 @@ pub fn advance(
     let span = trace::span("step");
     let result = machine.run(rule, before, generation, settings, output);
     let mut mesh = result.map_err(|mut failure| {
-        if failure.kind == FailureKind::Program {
-            explain(&mut failure.diagnostic, machine.program(), before, &settings.stop);
-        }
+        explain(&mut failure, machine.program(), rule, before, &settings.stop);
         failure
     })?;
     drop(span);
@@ -77,30 +75,23 @@ pub fn advance(
     let began = Instant::now();
     let _span = trace::span("closing");
     let survivors = Survivors::of(&mesh, before.vertex_count());
-    let mut warnings = close::close(&mut mesh, &settings.stop).map_err(|stopped| Failure {
+    let stopped = |stopped: Stopped| Failure {
         kind: FailureKind::Stopped(stopped),
         diagnostic: Box::new(Diagnostic::new(vv::diagnostic::Severity::Error, None, stopped.to_string())),
-    })?;
+    };
+    let warnings = close::close(&mut mesh, &settings.stop).map_err(stopped)?;
     let closing_s = began.elapsed().as_secs_f64();
-    if let Some(warning) = warnings.first_mut() {
-        explain(warning, machine.program(), before, &settings.stop);
-    }
-    Ok(Generation { mesh, warnings, survivors, step_s, closing_s })
+    let claim = Claim::of(machine.program(), rule).filter(|_| generation == 1);
+    let unfit = claim.map(|claim| claim.breach(before, &settings.stop)).transpose().map_err(stopped)?.flatten();
+    Ok(Generation { mesh, unfit, warnings, survivors, step_s, closing_s })
 }
 
-/// Adds to what went wrong with a mesh that the program is for triangle meshes, by its first comment, and that it is none.
-fn explain(diagnostic: &mut Diagnostic, program: &Program, mesh: &Mesh, stop: &Stop) {
-    let text = program.sources.file(FileId::MAIN).map_or("", |file| &file.text);
-    if !headline(text).to_lowercase().contains("triangle mesh") {
-        return;
-    }
-    let Ok(faces) = faces(mesh, stop) else { return };
-    let others = faces.iter().filter(|face| face.len() != 3).count();
-    if others > 0 {
-        let (all, are) = (faces.len(), if others == 1 { "is" } else { "are" });
-        let fault = std::mem::take(&mut diagnostic.message);
-        diagnostic.message =
-            format!("the program is for triangle meshes, and {others} of the {all} faces {are} none: {fault}");
+/// Says with what went wrong that the rule is not for this mesh, if it is not.
+fn explain(failure: &mut Failure, program: &Program, rule: FunctionId, mesh: &Mesh, stop: &Stop) {
+    if failure.kind == FailureKind::Program
+        && let Some(Ok(Some(unfit))) = Claim::of(program, rule).map(|claim| claim.breach(mesh, stop))
+    {
+        failure.diagnostic.message = format!("{}: {}", unfit.message, failure.diagnostic.message);
     }
 }
 

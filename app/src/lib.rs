@@ -3,6 +3,7 @@
 pub mod alike;
 pub mod annotate;
 pub mod camera;
+pub mod claim;
 pub mod command;
 pub mod compare;
 pub mod console;

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use app::claim::Claim;
 use app::evaluation::{first, machine_limits, within};
 use app::files;
 use clap::{Args, ValueEnum};
@@ -50,8 +51,8 @@ pub struct Arguments {
     /// The mask of this vertex of the result only, counted from 1.
     #[arg(long, value_name = "NUMBER", requires = "input", value_parser = count("the number of a vertex", 1..=u32::MAX as usize))]
     vertex: Option<usize>,
-    /// Around one vertex: what is around it. Default: quads for rules that make quads of quads and
-    /// no triangles of triangles, else triangles.
+    /// Around one vertex: what is around it. Default: what the rule says it is for; else quads for rules that make quads
+    /// of quads and no triangles of triangles, else triangles.
     #[arg(long, value_enum, value_name = "FACES", conflicts_with = "input")]
     around: Option<Faces>,
     /// Around one vertex: its valence. May be repeated. Default: 3 to 12.
@@ -298,9 +299,14 @@ impl Bench<'_> {
         Ok(table)
     }
 
-    /// What the rule is meant for: triangles if it makes triangles of them, quads if it makes new quads of those, but for
-    /// a few at irregular vertices. What does neither is shown on triangles, as it may ask for them.
+    /// What the rule is meant for: what it says, else triangles if it makes triangles of them, quads if it makes new quads
+    /// of those, but for a few at irregular vertices. What does neither is shown on triangles, as it may ask for them.
     fn natural(&self) -> Around {
+        match Claim::of(self.machine.program(), self.rule).and_then(|claim| claim.corners) {
+            Some(3) => return Around::Triangles,
+            Some(_) => return Around::Quads,
+            None => {}
+        }
         let made = |valence, around| {
             let star = Star::new(valence, around, false)?;
             let result = self.machine.run(self.rule, &star.mesh, 1, &self.settings, &mut Vec::new()).ok()?;

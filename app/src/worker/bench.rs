@@ -286,7 +286,10 @@ impl Bench {
                             ..Failed::said_before(FailureKind::Program, generation)
                         });
                     };
-                    evaluation::advance(machine, rule, &before.generation.mesh, generation, &settings, &mut printer)
+                    let before = &before.generation;
+                    let made = evaluation::advance(machine, rule, &before.mesh, generation, &settings, &mut printer);
+                    // What the first step was not for, none after it is.
+                    made.map(|made| Generation { unfit: made.unfit.or_else(|| before.unfit.clone()), ..made })
                 }
             };
             printer.flush();

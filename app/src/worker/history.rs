@@ -160,7 +160,7 @@ pub(super) fn frame(
         faces,
         statistics,
         control_vertices: control.map_or(generation.mesh.set.len(), |(mesh, _)| mesh.set.len()),
-        warnings: generation.warnings.clone(),
+        warnings: generation.unfit.iter().chain(&generation.warnings).cloned().collect(),
         scene,
         before: None,
         made: None,

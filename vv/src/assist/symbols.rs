@@ -212,16 +212,21 @@ impl Walk<'_> {
         text.trim_end_matches(';').split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
-    /// The comment that ends right before the line of a declaration.
     fn doc(&self, start: usize) -> String {
-        let before = self.text.get(..start).unwrap_or_default();
-        let line = before.rfind('\n').map_or(0, |i| i + 1);
-        let above = before[..line].lines().rev().map(str::trim);
-        let mut lines: Vec<&str> =
-            above.take_while(|line| line.starts_with("//")).map(|line| line.trim_start_matches('/').trim()).collect();
-        lines.reverse();
-        lines.join(" ")
+        comment_before(self.text, start)
     }
+}
+
+/// The comment that ends right before the line at `start`, that of a declaration, in one line.
+#[must_use]
+pub fn comment_before(text: &str, start: usize) -> String {
+    let before = text.get(..start).unwrap_or_default();
+    let line = before.rfind('\n').map_or(0, |i| i + 1);
+    let above = before[..line].lines().rev().map(str::trim);
+    let mut lines: Vec<&str> =
+        above.take_while(|line| line.starts_with("//")).map(|line| line.trim_start_matches('/').trim()).collect();
+    lines.reverse();
+    lines.join(" ")
 }
 
 fn range(span: Span) -> Range<usize> {

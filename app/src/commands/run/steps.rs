@@ -61,6 +61,11 @@ impl Run<'_> {
             let next = self.generation(&what, &settings, &mut *printer, |settings, printer| {
                 evaluation::advance(self.machine, rule, &state.mesh, step, settings, printer)
             })?;
+            if let Some(unfit) = next.unfit {
+                let unfit = [unfit.evidence(format!("this was in {what}"))];
+                self.reporter.report(&unfit, &Sources::default());
+                state.warnings.extend(warnings_of(&unfit));
+            }
             state.warnings.extend(self.warn(&what, &next.warnings));
             state.past.lineage.add(step, &next.survivors);
             state.past.generation = step;

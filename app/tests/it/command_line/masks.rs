@@ -17,7 +17,7 @@ fn masks_are_a_table_with_fractions() {
     assert_eq!(object["rows"][0]["masks"][0]["weights"][1]["fraction"], "1/12");
 }
 
-/// A coral grows on triangles and leaves quads as they are; gyro makes pentagons of both.
+/// A coral grows on triangles and leaves quads as they are; gyro makes pentagons of both; limits move what they say.
 #[test]
 fn masks_are_shown_among_the_faces_that_a_rule_is_for() {
     let programs = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/programs");
@@ -28,6 +28,8 @@ fn masks_are_shown_among_the_faces_that_a_rule_is_for() {
         ("conway.vv --rule dual", "quads", ""),
         ("doo-sabin.vv", "quads", ""),
         ("sqrt3.vv", "triangles", ""),
+        ("limit.vv --rule loop_limit", "triangles", ""),
+        ("limit.vv --rule catmull_clark_limit", "quads", ""),
     ] {
         let table = check(&format!("mask {programs}/{rule} --valence 5"), 0, said).stdout;
         assert!(table.contains(&format!("… among {around}\n")), "{rule}: {table}");

@@ -5,24 +5,42 @@ use std::fs;
 use super::*;
 
 #[test]
-fn a_program_for_triangles_says_so_where_it_fails_on_other_faces() {
-    let square = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3\n3 1 4 2\n";
-    let folder = Folder::with(&[("house.off", square)]);
-    let flaw =
-        |comment: &str| format!("{comment}\nvoid step(mesh& S) {{ forall p in S {{ erase (any in p) from p; }} }}\n");
-    let says = "the program is for triangle meshes, and 1 of the 2 faces is none: ";
-    fs::write(folder.path("flaw.vv"), flaw("// Of triangle\n// meshes.")).unwrap();
-    folder.check("run flaw.vv -i house.off", 0, &format!("warning: after step 1 of 1 of `step`: {says}"));
+fn a_rule_that_is_not_for_the_faces_it_meets_is_warned_of_once_and_named_where_it_fails() {
+    let house = "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n4 0 1 2 3\n3 1 4 2\n";
+    let folder = Folder::with(&[("house.off", house)]);
     let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets");
-    for program in ["sqrt3", "paper-sqrt3"] {
-        let said = "error: the program is for triangle meshes, and 72 of the 72 faces are none: v";
-        folder.check(&format!("run {assets}/programs/{program}.vv -i {assets}/meshes/torus-quads.obj"), 1, said);
+    let says = |kind: &str, rest: &str| format!("the program is for {kind}, and {rest}");
+    let one = says("triangle meshes", "1 of the 2 faces is none");
+    for program in ["loop", "loop-creases", "butterfly", "delaunay", "koch", "sierpinski", "paper-polyhedral"] {
+        let warned = folder.check(
+            &format!("run {assets}/programs/{program}.vv -i house.off -n 2"),
+            0,
+            &format!("warning: {one}\nthis was in step 1 of 2 of `\n`triangulate(S)` of edits.vv makes triangles"),
+        );
+        assert_eq!(warned.stderr.matches("is for").count(), 1, "{}", warned.stderr);
+        folder.check(&format!("run {assets}/programs/{program}.vv -i square.off"), 0, "");
     }
-    // It is none of a program's business that says nothing, nor is it a fault of triangles.
-    fs::write(folder.path("flaw.vv"), flaw("// Of meshes.")).unwrap();
-    assert!(!folder.run("run flaw.vv -i house.off").stderr.contains("triangle"));
-    fs::write(folder.path("flaw.vv"), flaw("// Of triangle meshes.")).unwrap();
-    assert!(!folder.run("run flaw.vv -i square.off").stderr.contains("triangle"));
+    for (program, mesh, rest) in [
+        ("sqrt3", "torus-quads", says("triangle meshes", "72 of the 72 faces are none: v")),
+        ("paper-sqrt3", "torus-quads", says("closed triangle meshes", "72 of the 72 faces are none: v")),
+        ("paper-loop", "cube-open", says("closed triangle meshes", "the mesh is open: null has no position")),
+    ] {
+        folder.check(&format!("run {assets}/programs/{program}.vv -i {assets}/meshes/{mesh}.obj"), 1, &rest);
+    }
+    let summary = folder.check(&format!("run {assets}/programs/loop.vv -i house.off --summary json"), 0, &one).stdout;
+    assert_eq!(json(&summary)["warnings"][0], one);
+    // What a rule says of itself comes before what its program says.
+    let limit = format!("run {assets}/programs/limit.vv -i house.off --rule");
+    folder.check(
+        &format!("{limit} loop_limit"),
+        0,
+        "`loop_limit` is for triangle meshes, and 1 of the 2 faces is none",
+    );
+    let quads = "`catmull_clark_limit` is for quad meshes, and 1 of the 2 faces is none\ncatmull-clark.vv makes quads";
+    folder.check(&format!("{limit} catmull_clark_limit"), 0, quads);
+    // It is none of a program's business that says nothing.
+    fs::write(folder.path("still.vv"), "// Of meshes.\nvoid step(mesh& S) { }\n").unwrap();
+    folder.check("run still.vv -i house.off", 0, "");
 }
 
 #[test]

@@ -96,6 +96,21 @@ fn the_problem_of_the_line_with_the_cursor_is_said_whole_below_the_text_and_mend
 }
 
 #[test]
+fn a_mesh_that_the_rule_is_not_for_is_a_problem_of_all_generations_that_came_of_it() {
+    let mut window = octahedron();
+    write(&mut window, "// Of quad meshes.\n\nvoid still(mesh& S) { }\n");
+    let said = "the program is for quad meshes, and 8 of the 8 faces are none";
+    assert!(window.query_by_label_contains(said).is_none(), "nothing was stepped");
+    for _ in 0..2 {
+        click(&mut window, "Step");
+        let session = window.state().session();
+        let problems: Vec<_> = session.problems().iter().map(|p| p.diagnostic.message.as_str()).collect();
+        assert_eq!(problems, [said], "generation {}", session.shown_generation());
+    }
+    window.get_by_label_contains(said);
+}
+
+#[test]
 fn a_step_that_fails_leaves_generation_and_time_line_where_the_picture_is() {
     let mut window = octahedron();
     write(&mut window, "void f(mesh& S) { forall v in S { if (v$pos.x > 1.5) print(1 / 0); v$pos *= 2.0; } }\n");

@@ -1,0 +1,115 @@
+//! What meshes a rule is for, as its comment says: `triangle meshes`, `quad meshes`, `closed …`.
+//!
+//! A rule for triangles may make something of other faces, too, all of it valid and nothing of it meant. The language has
+//! no words for what a rule takes for granted, comments have; so vv reads them there.
+
+use vv::assist::comment_before;
+use vv::diagnostic::{Diagnostic, Severity};
+use vv::ir::{FunctionId, Program};
+use vv::mesh::Mesh;
+use vv::mesh::faces::faces;
+use vv::source::FileId;
+use vv::stop::{Stop, Stopped};
+
+use crate::gallery::headline;
+
+/// What meshes a rule is for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Claim {
+    /// Who says so: the program, or the rule, by its name.
+    pub by: String,
+    /// How many corners each face has; `None` for any.
+    pub corners: Option<usize>,
+    /// No boundary.
+    pub closed: bool,
+}
+
+impl Claim {
+    /// What the comment right before the rule says, else the first comment of the program; `None` if neither names a kind of
+    /// mesh, or all do.
+    #[must_use]
+    pub fn of(program: &Program, rule: FunctionId) -> Option<Self> {
+        let function = program.function(rule)?;
+        let text = &program.sources.file(FileId::MAIN)?.text;
+        let (head, own) = (headline(text), comment_before(text, function.span.start as usize));
+        match read(&own).filter(|_| own != head) {
+            Some(claim) => Some(Self { by: format!("`{}`", function.name), ..claim }),
+            None => read(&head),
+        }
+    }
+
+    /// What of a mesh is not as claimed, as a warning. Cost: finding its faces.
+    ///
+    /// # Errors
+    /// When stopped.
+    pub fn breach(&self, mesh: &Mesh, stop: &Stop) -> Result<Option<Diagnostic>, Stopped> {
+        let mut broken = Vec::new();
+        if let Some(corners) = self.corners {
+            let faces = faces(mesh, stop)?;
+            let others = faces.iter().filter(|face| face.len() != corners).count();
+            if others > 0 {
+                let are = if others == 1 { "is" } else { "are" };
+                broken.push(format!("{others} of the {} faces {are} none", faces.len()));
+            }
+        }
+        let others = !broken.is_empty();
+        if self.closed && mesh.set.iter().any(|v| mesh.ring(v).gaps() > 0) {
+            broken.push("the mesh is open".to_owned());
+        }
+        if broken.is_empty() {
+            return Ok(None);
+        }
+        let kind = match self.corners {
+            Some(3) => "triangle ",
+            Some(_) => "quad ",
+            None => "",
+        };
+        let closed = if self.closed { "closed " } else { "" };
+        let message = format!("{} is for {closed}{kind}meshes, and {}", self.by, broken.join(", and "));
+        let warning = Diagnostic::new(Severity::Warning, None, message);
+        Ok(Some(match self.corners {
+            Some(3) if others => warning.hint("`triangulate(S)` of edits.vv makes triangles of other faces"),
+            Some(_) if others => warning.hint("a step of catmull-clark.vv makes quads of all faces"),
+            _ => warning,
+        }))
+    }
+}
+
+fn read(comment: &str) -> Option<Claim> {
+    let text = comment.to_lowercase();
+    let says = |words: &str| text.contains(words);
+    let corners = match (says("triangle mesh"), says("quad mesh")) {
+        (true, false) => Some(3),
+        (false, true) => Some(4),
+        _ => None,
+    };
+    let closed = ["", "triangle ", "quad "].iter().any(|kind| says(&format!("closed {kind}mesh")));
+    (corners.is_some() || closed).then(|| Claim { by: "the program".to_owned(), corners, closed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, rule: &str, expected: Option<(&str, Option<usize>, bool)>) {
+        let program = vv::compile("p.vv", text, &mut |_, _| Err(String::new())).program.unwrap();
+        let found = Claim::of(&program, program.rule(rule).unwrap());
+        let expected = expected.map(|(by, corners, closed)| Claim { by: by.to_owned(), corners, closed });
+        assert_eq!(found, expected, "{text}");
+    }
+
+    #[test]
+    fn a_rule_is_for_what_the_comment_before_it_says_else_for_what_the_program_says() {
+        let rules = "void a(mesh& S) { }\n\n// For closed quad meshes.\nvoid b(mesh& S) { }\n";
+        let of = |headline: &str| format!("// {headline}\n\n{rules}");
+        let program = Some(("the program", Some(3), false));
+        check(&of("Smooth triangle meshes, closed or open."), "a", program);
+        check(&of("Any Triangle\n// mesh."), "a", program);
+        check(&of("Smooth triangle meshes, closed or open."), "b", Some(("`b`", Some(4), true)));
+        check(&of("Any closed mesh."), "a", Some(("the program", None, true)));
+        check(&of("Any polygons, closed or open."), "a", None);
+        check(&of("One is for triangle meshes, the other for quad meshes."), "a", None);
+        check("// Of triangle meshes.\nstep { }\n", "step", Some(("the program", Some(3), false)));
+    }
+}
