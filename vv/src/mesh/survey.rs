@@ -19,7 +19,7 @@ pub(super) struct Survey {
     pub entries: usize,
     /// Sum over these entries: an entry v→x counts f(v) f(x) (f(x) − f(v)), for a function f that scatters, and its twin
     /// x→v as much with the other sign. As no ring names a vertex twice, it is 0 where all pairs answer, and otherwise 0
-    /// by a chance of about 2⁻⁶². Powers of f(x) are summed round a ring, so that it takes one pass in order of memory,
+    /// by a chance of about 2⁻⁶⁰. Powers of f(x) are summed round a ring, so that it takes one pass in order of memory,
     /// where looking for each entry's twin jumps about.
     pub balance: u64,
     /// Those that name others than members.
@@ -35,8 +35,19 @@ pub(super) struct Survey {
 impl Survey {
     /// Cost: linear, on all threads.
     pub(super) fn new(mesh: &Mesh, members: &Members, stop: &Stop) -> Result<Self, Stopped> {
-        let parts = in_pieces(mesh, stop, |range| Self::of(mesh, members, range))?;
-        Ok(parts.into_iter().fold(Self::default(), Self::and))
+        if let Members::From(1, _) = members {
+            // Everything that exists is a member. What does not exist, too, is named by a ring and names nothing: where
+            // a ring does that, the entries do not balance.
+            let survey = Self::sum(in_pieces(mesh, stop, |range| Self::of(mesh, range, |_| true))?);
+            if survey.balance == 0 {
+                return Ok(survey);
+            }
+        }
+        Ok(Self::sum(in_pieces(mesh, stop, |range| Self::of(mesh, range, |v| members.contains(v)))?))
+    }
+
+    fn sum(parts: Vec<Self>) -> Self {
+        parts.into_iter().fold(Self::default(), Self::and)
     }
 
     /// Of two ranges of vertices, the older ones first.
@@ -51,21 +62,9 @@ impl Survey {
         self
     }
 
-    fn of(mesh: &Mesh, members: &Members, range: Range<usize>) -> Self {
-        if let Members::From(1, n) = *members {
-            // Everything that exists is a member; asking for the largest name is less than asking for each.
-            let (survey, largest) = Self::of_those(mesh, range.clone(), |_| true);
-            if largest <= n {
-                return survey;
-            }
-        }
-        Self::of_those(mesh, range, |v| members.contains(v)).0
-    }
-
-    /// And the largest number that the rings name.
-    fn of_those(mesh: &Mesh, range: Range<usize>, is_member: impl Fn(Vertex) -> bool) -> (Self, u32) {
+    fn of(mesh: &Mesh, range: Range<usize>, is_member: impl Fn(Vertex) -> bool) -> Self {
         let mut survey = Self::default();
-        let (mut balance, mut used, mut others, mut gaps, mut largest) = (0_u64, 0, 0, 0, 0);
+        let (mut balance, mut used, mut others, mut gaps) = (0_u64, 0, 0, 0);
         let slots = mesh.slots();
         let vertices = range.clone().filter_map(Vertex::from_index);
         for ((v, head), position) in vertices.zip(&mesh.heads()[range.clone()]).zip(&mesh.positions()[range]) {
@@ -77,22 +76,24 @@ impl Survey {
             for &slot in ring {
                 let is_other = slot.is_some_and(|x| !is_member(x));
                 outside += usize::from(is_other);
-                largest = largest.max(number(slot));
-                // Gaps and others than members count 0, without a branch.
+                // Others than members count 0, without a branch.
                 let x = if is_other { 0 } else { scattered(slot) };
                 sum = sum.wrapping_add(x);
                 squares = squares.wrapping_add(x.wrapping_mul(x));
             }
-            let f = scattered(Some(v));
-            let differences = squares.wrapping_sub(f.wrapping_mul(sum));
-            balance = balance.wrapping_add(f.wrapping_mul(differences));
-            used += ring.len();
             let mut entries = ring.len();
             if let Some(None) = ring.last() {
                 survey.with_gaps.push(v);
                 entries = ring.iter().flatten().count();
                 gaps += ring.len() - entries;
+                let (x, times) = (scattered(None), (ring.len() - entries) as u64);
+                sum = sum.wrapping_sub(x.wrapping_mul(times));
+                squares = squares.wrapping_sub(x.wrapping_mul(x).wrapping_mul(times));
             }
+            let f = scattered(Some(v));
+            let differences = squares.wrapping_sub(f.wrapping_mul(sum));
+            balance = balance.wrapping_add(f.wrapping_mul(differences));
+            used += ring.len();
             survey.valences.count(entries);
             if outside > 0 {
                 survey.torn.push(v);
@@ -102,7 +103,7 @@ impl Survey {
                 survey.not_finite.push(v);
             }
         }
-        (Self { slots: used, entries: used - gaps - others, balance, ..survey }, largest)
+        Self { slots: used, entries: used - gaps - others, balance, ..survey }
     }
 }
 
@@ -125,15 +126,12 @@ pub(super) fn in_pieces<T: Send>(
     (0..n.div_ceil(PIECE)).into_par_iter().map(piece).collect()
 }
 
-/// Another number for each vertex, in which nothing is left of their order and sums; 0 for none.
+/// A number for each vertex and for none, in which nothing is left of their order, sums and factors: the two halves of a
+/// multiple, some of their bits turned, times each other.
 fn scattered(v: Option<Vertex>) -> u64 {
-    let x = u64::from(number(v)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let product = u128::from(x) * u128::from(x.wrapping_add(0xBF58_476D_1CE4_E5B9));
-    (product >> 64) as u64 ^ product as u64
-}
-
-fn number(v: Option<Vertex>) -> u32 {
-    v.map_or(0, |v| v.0.get())
+    let multiple = u64::from(v.map_or(0, |v| v.0.get())) * 0x9E37_79B9;
+    let turned = multiple ^ 0xBF58_476D_1CE4_E5B9;
+    (turned >> 32) * (turned & 0xFFFF_FFFF)
 }
 
 /// How often each number occurs.
@@ -200,5 +198,25 @@ mod tests {
         check([0, 6, 7, 1, 13]); // the seventh and the first make the eighth
         check([1000, 2000, 3000, 4000, 5000]);
         check([0, 1 << 16, 1 << 24, 1 << 31, u32::MAX as usize - 1]);
+        for bits in 0..29 {
+            check([1, 2, 3, 4, 5].map(|i| (i << bits) - 1)); // what they have in common stands in all three factors
+        }
+    }
+
+    #[test]
+    fn rings_that_name_one_side_everywhere_alike_do_not_balance() {
+        for (columns, rows) in [(3, 3), (4, 4), (7, 5), (64, 32), (100, 100)] {
+            let at = |i: usize, j: usize| i % rows * columns + j % columns;
+            let f = |i, j| scattered(Vertex::from_index(at(i, j)));
+            let mut balance = 0_u64;
+            for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))) {
+                // Right, up, and back along the diagonal: the numbers in and out of each have one sum.
+                for x in [f(i, j + 1), f(i + 1, j), f(i + rows - 1, j + columns - 1)] {
+                    let v = f(i, j);
+                    balance = balance.wrapping_add(v.wrapping_mul(x).wrapping_mul(x.wrapping_sub(v)));
+                }
+            }
+            assert_ne!(balance, 0, "{columns} × {rows}");
+        }
     }
 }
