@@ -297,29 +297,11 @@ fn with_double_room(mesh: &Mesh, vertices: usize, slots: usize) -> (Column<Head>
         let capacity = room_for(2 * head.len);
         let offset = arena.len();
         heads.push(Head { offset: offset as u32, len: head.len, capacity });
-        if let Some(few) = mesh.slots().get(head.offset as usize..).and_then(<[_]>::first_chunk::<FEW>)
-            && capacity as usize <= 2 * FEW
-            && offset + 2 * FEW <= arena.capacity()
-        {
-            // Most rings are short; a copy of known length is a few instructions.
-            let kept: [_; FEW] = std::array::from_fn(|i| if i < head.len as usize { few[i] } else { None });
-            // SAFETY: there is room for all of them, and the length counts those that were written.
-            unsafe {
-                let to = arena.as_mut_ptr().add(offset).cast::<[Option<Vertex>; FEW]>();
-                to.write_unaligned(kept);
-                to.add(1).write_unaligned([None; FEW]);
-                arena.set_len(offset + capacity as usize);
-            }
-        } else {
-            arena.extend_from_slice(ring);
-            arena.resize(offset + capacity as usize, None);
-        }
+        arena.extend_from_slice(ring);
+        arena.resize(offset + capacity as usize, None);
     }
     (heads.into(), arena.into())
 }
-
-/// Slots of rings that are copied at once.
-const FEW: usize = 8;
 
 /// Makes an array unshared, with room for so many elements.
 fn own_column<T: Copy + Send>(column: &mut Column<T>, capacity: usize) {
