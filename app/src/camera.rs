@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
-use crate::scene::Sphere;
+use crate::scene::{Plane, Sphere};
 
 /// Where the eye is and how it looks. World units throughout.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -202,6 +202,23 @@ impl Camera {
         }
         let shift = (positive - negative) / 2.0;
         Self { pivot: bounds.center + self.world_from_view * shift.extend(0.0), distance, ..self }
+    }
+
+    /// The sides of what is seen in a picture of this width over height: right, left, top, bottom. What lies beyond one of
+    /// them is not seen.
+    #[must_use]
+    pub fn sides(&self, aspect: f64) -> [Plane; 4] {
+        let slope = MARGIN * self.slope(aspect);
+        [(DVec3::X, slope.x), (DVec3::NEG_X, slope.x), (DVec3::Y, slope.y), (DVec3::NEG_Y, slope.y)].map(
+            |(out, slope)| {
+                if self.orthographic {
+                    let normal = self.world_from_view * out;
+                    return Plane { normal, place: normal.dot(self.pivot) + slope * self.distance };
+                }
+                let normal = self.world_from_view * (out + slope * DVec3::Z).normalize();
+                Plane { normal, place: normal.dot(self.eye()) }
+            },
+        )
     }
 
     /// How steeply the sides of what is seen lead away from its middle, but for the margin.

@@ -9,6 +9,7 @@
 
 mod part;
 mod pick;
+mod sight;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -10,6 +10,7 @@ mod files;
 mod generations;
 mod inspecting;
 mod keeping;
+mod leading;
 mod pictures;
 mod problem;
 mod reading;
@@ -237,6 +238,7 @@ pub struct Session {
     typed: Option<(Purpose, String)>,
     notice: Option<(Severity, String, Instant)>,
     flight: Option<view::Flight>,
+    leading: leading::Leading,
     /// When a viewpoint was asked for from the clipboard.
     awaited: Option<Instant>,
     beside: Option<Beside>,
@@ -345,6 +347,7 @@ impl Session {
             typed: None,
             notice: None,
             flight: None,
+            leading: leading::Leading::default(),
             awaited: None,
             beside: None,
             id: SESSIONS.fetch_add(1, Ordering::Relaxed),

@@ -15,13 +15,42 @@ use crate::worker::Frame as Shown;
 
 const WIDTH: f32 = 148.0;
 const BAR: f32 = 168.0;
-/// All of its width.
-pub const BESIDE: f32 = WIDTH + 34.0;
 const ROW: f32 = 17.0;
 /// The part of a picture that it covers at most, lest it lie over the mesh; in smaller ones it is a strip.
 const MOST: f32 = 0.08;
 /// Height of the histogram over a strip.
 const COUNTS: f32 = 16.0;
+
+/// How much of a picture's width it takes, with what it leaves free at the right.
+pub fn width(rect: Rect, colors: Option<&Colors>) -> f32 {
+    match colors.map(height) {
+        Some(height) if is_strip(rect, height) => strip_width(rect) + 26.0,
+        Some(_) => WIDTH + 34.0,
+        None => 0.0,
+    }
+}
+
+fn height(colors: &Colors) -> f32 {
+    let inside = match colors {
+        Ok(tint) => match &tint.field.kind {
+            Kind::Classes(classes) => classes.iter().filter(|c| c.count > 0).count() as f32 * ROW,
+            Kind::Colors => 0.0,
+            _ => BAR + 14.0,
+        },
+        Err(_) => 2.0 * ROW,
+    };
+    inside + 2.0 * ROW + 36.0
+}
+
+/// Whether something so high would cover too much.
+fn is_strip(rect: Rect, height: f32) -> bool {
+    let part = (WIDTH + 24.0) * height / rect.area().max(1.0);
+    part > MOST || rect.height() < height + 40.0
+}
+
+fn strip_width(rect: Rect) -> f32 {
+    (rect.width() - 44.0).min(230.0)
+}
 
 /// Shows it in the lower right corner, in a small picture as a strip; with the value under the pointer, if it is over the
 /// mesh. Returns where it is.
@@ -35,18 +64,9 @@ pub fn show(
 ) -> Option<Rect> {
     let colors = colors?;
     let title = session.document.annotations.color_by.title();
-    let height = match colors {
-        Ok(tint) => match &tint.field.kind {
-            Kind::Classes(classes) => classes.iter().filter(|c| c.count > 0).count() as f32 * ROW,
-            Kind::Colors => 0.0,
-            _ => BAR + 14.0,
-        },
-        Err(_) => 2.0 * ROW,
-    };
-    let height = height + 2.0 * ROW + 36.0;
+    let height = height(colors);
     let under = at.and_then(|pointer| under(&pointer, frame, colors.as_ref().ok()?));
-    let part = (WIDTH + 24.0) * height / rect.area().max(1.0);
-    if part > MOST || rect.height() < height + 40.0 {
+    if is_strip(rect, height) {
         return compact(ui, rect, &title, colors, under.as_ref());
     }
     let place =
@@ -72,7 +92,7 @@ pub fn show(
 
 /// A strip above the lower edge: what the colours are, and a bar or the kinds, in a line each.
 fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<&Under>) -> Option<Rect> {
-    let width = (rect.width() - 44.0).min(230.0);
+    let width = strip_width(rect);
     if width < 90.0 || rect.height() < 150.0 {
         return None; // no room
     }

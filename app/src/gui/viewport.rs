@@ -2,6 +2,7 @@
 
 mod empty;
 mod hands;
+mod lost;
 
 use std::sync::Arc;
 
@@ -87,6 +88,11 @@ impl Viewport {
                 camera = fitted;
                 commands.push(Command::SetCamera(camera));
             }
+        } else if !ui.input(|i| i.pointer.any_down())
+            && let Some(led) = session.lead(size, &style)
+        {
+            self.fitted = Some((led, size));
+            commands.push(Command::View(ViewAction::Glide(led)));
         }
         if let Some(moved) = self.hands.moved(ui, &response, &session.navigation, camera, &frame.scene, &style) {
             camera = moved;
@@ -124,10 +130,13 @@ impl Viewport {
         inks.write();
         self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
-        let room = counts(ui, rect, &frame, legend::BESIDE);
+        let room = counts(ui, rect, &frame, legend::width(rect, colors.as_ref()));
         let legend = legend::show(ui, room, session, &frame, colors.as_ref(), pointer);
         if style.axes {
             gizmo::show(ui, rect, &camera);
+        }
+        if !session.fit && !session.glides() && frame.scene.is_out_of_sight(&camera, &style, size.aspect()) {
+            lost::show(ui, rect, commands);
         }
         overlay(ui, rect, session, legend);
     }
@@ -202,6 +211,9 @@ fn counts(ui: &Ui, rect: Rect, frame: &Frame, beside: f32) -> Rect {
     // Grid and mesh may lie behind it.
     let plate = Rect::from_min_size(at, size).expand2(vec2(5.0, 2.0));
     ui.painter().rect_filled(plate, 4.0, ui.visuals().panel_fill.gamma_multiply(0.75));
+    let spoken = lines.join(", ").replace("   ", ", ");
+    let said = ui.interact(plate, ui.scope_id().with("counts"), Sense::empty());
+    said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
     ui.painter().galley(at, galley, color);
     let apart = size.x + 30.0 + beside <= rect.width();
     if apart { rect } else { rect.with_max_y(rect.bottom() - size.y - 6.0) }

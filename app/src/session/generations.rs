@@ -192,6 +192,7 @@ impl Session {
     }
 
     fn show(&mut self, frame: Arc<Frame>, of: Option<u64>) {
+        self.remember_sight(&frame);
         release(self.frame.replace(frame));
         self.frame_of = of;
         self.follow();

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use vv::diagnostic::Severity;
 
 use super::{Dialog, Session};
-use crate::document::Document;
+use crate::document::{Document, MeshSource};
 use crate::preferences::{Preferences, Start};
 use crate::project::Project;
 use crate::store::{Settings, Store};
@@ -23,7 +23,7 @@ pub(super) struct Keeping {
     others: serde_json::Map<String, serde_json::Value>,
     document: Option<Document>,
     since: Option<Instant>,
-    /// Whether the user has changed anything since it was opened or saved.
+    /// Whether values that are in no file have changed since it was opened or saved.
     touched: bool,
 }
 
@@ -66,12 +66,13 @@ impl Session {
         }
     }
 
-    /// Takes notice of what a command has changed.
+    /// Takes notice of what a command has changed. What a few clicks bring back is no work: a view, a style, a generation,
+    /// a file that was opened.
     pub(super) fn touch(&mut self, before: &Document) {
         let now = &self.document;
-        // Fitting moves the eye, too; only who turns it has looked for a view.
-        let turned = before.camera.world_from_view != now.camera.world_from_view || self.flight.is_some();
-        self.keeping.touched |= turned || !same_work(before, now) || before.generation != now.generation;
+        let computed = before.mesh != now.mesh && matches!(now.mesh, MeshSource::Result(_));
+        let same = (&before.params, &before.param_sets, &before.views) == (&now.params, &now.param_sets, &now.views);
+        self.keeping.touched |= computed || !same;
     }
 
     /// The window closes: there is nothing to bring back, but to begin with next time.
@@ -106,6 +107,14 @@ impl Session {
     /// that is open does not hold. Where the eye is and which generation is shown is nobody's work.
     #[must_use]
     pub fn is_unsaved(&self) -> bool {
+        match &self.project {
+            Some(project) if project.saved.style != self.document.style => true,
+            _ => self.is_work_unsaved(),
+        }
+    }
+
+    /// The same, but for how it looks.
+    fn is_work_unsaved(&self) -> bool {
         let program = &self.document.program;
         match &self.project {
             Some(project) => {
@@ -171,7 +180,7 @@ impl Session {
         if let Some(trouble) = trouble {
             self.say(Severity::Error, format!("what is unsaved cannot be kept: {trouble}"));
         }
-        let worth = !self.wants_quit && (self.keeping.touched || self.is_unsaved());
+        let worth = !self.wants_quit && (self.keeping.touched || self.is_work_unsaved());
         let kept = self.keeping.document.as_ref();
         if worth && kept == Some(&self.document) || !worth && kept.is_none() {
             self.keeping.since = None;
@@ -217,8 +226,8 @@ impl Session {
     }
 }
 
-/// Whether two documents hold the same work.
+/// Whether two documents hold the same work, but for how it looks.
 fn same_work(a: &Document, b: &Document) -> bool {
-    (&a.program.path, &a.program.text, a.style) == (&b.program.path, &b.program.text, b.style)
+    (&a.program.path, &a.program.text, &a.views) == (&b.program.path, &b.program.text, &b.views)
         && (&a.mesh, &a.rule, &a.params, &a.param_sets) == (&b.mesh, &b.rule, &b.params, &b.param_sets)
 }

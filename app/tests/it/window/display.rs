@@ -262,3 +262,23 @@ fn options_of_drawing_open_over_the_picture_and_not_over_the_same_in_the_inspect
     let opened = all.iter().find(|rect| **rect != inspector).unwrap();
     assert!(picture.contains_rect(*opened), "{opened} in {picture}");
 }
+
+#[test]
+fn what_the_colours_mean_does_not_lie_over_the_counts() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::ColorBy(Quantity::Coordinate(0)));
+    window.state_mut().apply(Command::Toggle(app::command::Panel::Inspector));
+    for (width, height) in
+        [(660.0, 500.0), (720.0, 500.0), (800.0, 500.0), (840.0, 500.0), (900.0, 600.0), (1280.0, 720.0)]
+    {
+        window.set_size(egui::vec2(width, height));
+        colored(&mut window);
+        window.run_steps(3);
+        let counts = window.get_by_label_contains("8 faces").rect();
+        let title = window.get_by_label("coordinate x").rect();
+        let ends: Vec<_> = ["-1", "\u{2212}1"].iter().flat_map(|end| window.query_all_by_label(end)).collect();
+        let least = ends.iter().map(|node| node.rect().bottom()).fold(title.bottom(), f32::max);
+        let apart = counts.right() < title.left() || least < counts.top();
+        assert!(apart, "in {width} × {height}: from {title} to {least} over {counts}");
+    }
+}

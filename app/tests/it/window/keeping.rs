@@ -188,3 +188,27 @@ fn what_a_project_does_not_hold_yet_is_marked_and_asked_about() {
     settle(&mut window);
     assert!(window.state().session().document.style.smooth && !is_unsaved(&window));
 }
+
+#[test]
+fn looking_around_is_nothing_to_bring_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open_with(folder.path());
+    settle(&mut window);
+    window.state_mut().apply(Command::UseMesh(MeshSource::BuiltIn("octahedron.obj".to_owned())));
+    window.state_mut().apply(Command::Step);
+    window.state_mut().apply(Command::Smooth);
+    window.state_mut().apply(Command::View(app::command::ViewAction::Turn(app::command::Toward::Left)));
+    settle(&mut window);
+    let until_kept = Instant::now() + Duration::from_millis(700);
+    wait_for("something would have been kept", || {
+        window.step();
+        Instant::now() > until_kept
+    });
+    assert!(recoveries(folder.path()).is_empty());
+    // Values are found by trying, and are in no file.
+    window.state_mut().apply(Command::SaveParams("mine".to_owned()));
+    wait_for("the values are kept", || {
+        window.step();
+        recoveries(folder.path()).len() == 1
+    });
+}

@@ -394,3 +394,84 @@ fn with_the_hands_of_blender_digits_are_the_keypad() {
     window.run_steps(4);
     window.get_by_label("Digits and keypad");
 }
+
+const GROWS: &str = "param double by = 1.5 in [1, 9];\nvoid grow(mesh& S) { forall v in S v$pos *= by; }\n";
+
+#[track_caller]
+fn check_whole(window: &mut Harness<'static, App>) {
+    inspecting::known(window);
+    let picture = window.get_by_label("Viewport").rect();
+    let frame = window.state().session().frame().unwrap().clone();
+    let outside = frame.mesh.positions().iter().find(|&&p| !picture.contains(inspecting::seen(window, p)));
+    assert_eq!(outside, None);
+}
+
+#[test]
+fn a_mesh_that_grows_out_of_the_picture_takes_the_camera_with_it_and_back() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::Control);
+    write(&mut window, GROWS);
+    window.state_mut().apply(Command::Rewind);
+    window.state_mut().apply(Command::Fit);
+    inspecting::known(&mut window);
+    let first = camera(&window);
+    for _ in 0..4 {
+        window.state_mut().apply(Command::Step);
+        check_whole(&mut window);
+    }
+    let far = camera(&window);
+    assert!(far.distance > 4.0 * first.distance && far.world_from_view == first.world_from_view);
+    // Back where it is as small as before it is looked at as before.
+    window.state_mut().apply(Command::Rewind);
+    check_whole(&mut window);
+    assert_eq!(camera(&window), first);
+    // Parameters make it grow, too.
+    window.state_mut().apply(Command::Step);
+    window.state_mut().apply(Command::SetParam("by".to_owned(), vv::mesh::Value::Double(8.0)));
+    check_whole(&mut window);
+    window.state_mut().apply(Command::SetParam("by".to_owned(), vv::mesh::Value::Double(1.0)));
+    check_whole(&mut window);
+    assert_eq!(camera(&window), first);
+}
+
+#[test]
+fn a_mesh_that_shrinks_is_seen_to_shrink() {
+    let mut window = octahedron();
+    write(&mut window, PROGRAM);
+    window.state_mut().apply(Command::ChooseRule("shrink".to_owned()));
+    inspecting::known(&mut window);
+    let before = camera(&window);
+    window.state_mut().apply(Command::Step);
+    inspecting::known(&mut window);
+    assert_eq!(camera(&window), before);
+}
+
+#[test]
+fn who_has_come_nearer_stays_there_while_the_mesh_grows() {
+    let mut window = octahedron();
+    write(&mut window, GROWS);
+    inspecting::known(&mut window);
+    for _ in 0..3 {
+        view(&mut window, ViewAction::Nearer);
+    }
+    let near = camera(&window);
+    window.state_mut().apply(Command::Step);
+    inspecting::known(&mut window);
+    assert_eq!(camera(&window), near);
+}
+
+#[test]
+fn a_mesh_that_is_out_of_sight_is_offered() {
+    let mut window = octahedron();
+    inspecting::known(&mut window);
+    let whole = camera(&window);
+    assert!(window.query_by_label("the mesh is out of sight").is_none());
+    for _ in 0..12 {
+        view(&mut window, ViewAction::Shift(app::command::Toward::Right));
+    }
+    window.get_by_label("the mesh is out of sight");
+    click(&mut window, "Fit view (F)");
+    inspecting::known(&mut window);
+    assert!(window.query_by_label("the mesh is out of sight").is_none());
+    assert_eq!(camera(&window).distance, whole.distance);
+}
