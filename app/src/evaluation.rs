@@ -10,6 +10,7 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use vv::diagnostic::Diagnostic;
 use vv::engine::{Failure, FailureKind, Limits, Machine, Output, Settings};
 use vv::ir::{FunctionId, Program};
+use vv::mesh::inherit::inherit;
 use vv::mesh::{Mesh, close};
 use vv::stop::{Stop, Stopped};
 
@@ -51,7 +52,7 @@ pub fn first(
 }
 
 /// Generation `generation`, made of the one before by `rule`. What goes wrong with a rule for triangle meshes says so if
-/// this was none.
+/// this was none. New vertices inherit what the program does not declare, see [`inherit()`].
 ///
 /// # Errors
 /// As [`Machine::run`]; `mesh` is as it was.
@@ -79,11 +80,21 @@ pub fn advance(
         kind: FailureKind::Stopped(stopped),
         diagnostic: Box::new(Diagnostic::new(vv::diagnostic::Severity::Error, None, stopped.to_string())),
     };
+    let unknown = unknown_to(machine.program(), before);
+    inherit(&mut mesh, before.vertex_count(), &unknown, &settings.stop).map_err(stopped)?;
     let warnings = close::close(&mut mesh, &settings.stop).map_err(stopped)?;
     let closing_s = began.elapsed().as_secs_f64();
     let claim = Claim::of(machine.program(), rule).filter(|_| generation == 1);
     let unfit = claim.map(|claim| claim.breach(before, &settings.stop)).transpose().map_err(stopped)?.flatten();
     Ok(Generation { mesh, unfit, warnings, survivors, step_s, closing_s })
+}
+
+/// The vertex properties of a mesh that a program does not declare, so that it cannot hand them on; but for sharpness, of
+/// which new vertices have none.
+fn unknown_to(program: &Program, mesh: &Mesh) -> Vec<usize> {
+    let declared = |name: &str| program.vertex_properties.iter().any(|property| property.name == name);
+    let properties = mesh.vertex_properties().iter().enumerate();
+    properties.filter(|(_, p)| !declared(&p.name) && p.name != "sharpness").map(|(i, _)| i).collect()
 }
 
 /// Says with what went wrong that the rule is not for this mesh, if it is not.

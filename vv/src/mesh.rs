@@ -20,6 +20,7 @@ pub mod close;
 mod column;
 pub mod faces;
 mod finder;
+pub mod inherit;
 pub mod isomorphism;
 mod members;
 mod property;

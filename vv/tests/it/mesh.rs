@@ -8,6 +8,7 @@ use vv::io::{Format, ReadOptions, read, write};
 use vv::mesh::build::{BuildError, Polygons, build};
 use vv::mesh::close::close;
 use vv::mesh::faces::{Faces, degrees, faces};
+use vv::mesh::inherit::inherit;
 use vv::mesh::statistics::{Statistics, statistics};
 use vv::mesh::validate::{Finding, validate};
 use vv::mesh::{Mesh, Value, Vertex};
@@ -120,6 +121,39 @@ fn vertices_outside_the_set_are_forgotten() {
            of 3 vertices | now ring of v1: v2 v3 v4 null | now ring of v2: v3 v1 null | now ring of v4: v1 v3 null",
         ],
     );
+}
+
+/// The first `old` vertices have 1, 2, 4, 8, … as a double, 1, 2, 3, … as an int, all others 0 and 0.
+#[track_caller]
+fn check_inherited(rings: &str, old: usize, expected: &str) {
+    let mut mesh = mesh(rings);
+    let number = mesh.declare_vertex_property("number", Value::Double(0.0));
+    let label = mesh.declare_vertex_property("label", Value::Int(0));
+    let other = mesh.declare_vertex_property("other", Value::Int(0));
+    for v in mesh.vertices().take(old) {
+        mesh.set_vertex_value(number, v, Value::Double(f64::from(1 << v.index())));
+        mesh.set_vertex_value(label, v, Value::Int(v.index() as i64 + 1));
+        mesh.set_vertex_value(other, v, Value::Int(1));
+    }
+    inherit(&mut mesh, old, &[number, label], &Stop::new()).unwrap();
+    let value = |property, v| match mesh.vertex_value(property, v).unwrap() {
+        Value::Double(x) => x.to_string(),
+        Value::Int(x) => x.to_string(),
+        value => panic!("{value:?}"),
+    };
+    let all: Vec<_> = mesh.vertices().map(|v| format!("{}/{}", value(number, v), value(label, v))).collect();
+    assert_eq!(all[old..].join(" "), expected);
+    assert!(mesh.vertices().skip(old).all(|v| value(other, v) == "0"), "only what is asked for");
+}
+
+#[test]
+fn new_vertices_inherit_means_and_the_labels_of_the_oldest() {
+    check_inherited("1: 3, 2: 3, 3: 1 2", 2, "1.5/1");
+    // Through other new ones: 4 from 1 and 3, 5 from 4, 6 from 5; 7 and 8 know nobody.
+    check_inherited("1: 4, 2:, 3: 4, 4: 1 5 3, 5: 4 6, 6: 5, 7: 8, 8: 7", 3, "2.5/1 2.5/1 2.5/1 0/0 0/0");
+    // Whom only the old one names, and who only names it; and what both are told.
+    check_inherited("1: 3, 2:, 3:, 4: 2, 5: 1 2", 2, "1/1 2/2 1.5/1");
+    check_inherited("1: 2, 2: 1", 2, "");
 }
 
 #[test]

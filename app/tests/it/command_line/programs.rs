@@ -44,6 +44,30 @@ fn a_rule_that_is_not_for_the_faces_it_meets_is_warned_of_once_and_named_where_i
 }
 
 #[test]
+fn what_a_file_says_of_vertices_is_inherited_where_the_program_knows_nothing_of_it() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n\
+               property double sharpness\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+               0 0 0 255 0 0 255 1\n2 0 0 0 255 0 255 1\n0 2 0 0 0 255 255 1\n3 0 1 2\n";
+    let folder = Folder::with(&[("c.ply", ply)]);
+    let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/programs");
+    let made = |program: &str| {
+        let said = folder.check(&format!("run {program} -i c.ply -o - --format ply-text"), 0, "").stdout;
+        said.split_once("end_header\n").unwrap().1.to_owned()
+    };
+    let loop_ = made(&format!("{assets}/loop.vv"));
+    let rest: Vec<_> = loop_.lines().take(6).map(|line| line.splitn(4, ' ').last().unwrap()).collect();
+    let expected =
+        ["255 0 0 255 1", "0 255 0 255 1", "0 0 255 255 1", "128 128 0 255 0", "128 0 128 255 0", "0 128 128 255 0"];
+    assert_eq!(rest, expected, "there is no sharpness where there was none");
+    assert!(made(&format!("{assets}/doo-sabin.vv")).contains("255 0 0 255 0\n"), "the old vertices are gone");
+    // What it knows of is its own business.
+    let own = "#include \"loop.vv\"\nvertex { vec color = vec(1, 1, 1); };\nstep { loop(S); }\n";
+    fs::write(folder.path("own.vv"), own).unwrap();
+    assert_eq!(made("own.vv").matches("255 255 255 255 0\n").count(), 3);
+}
+
+#[test]
 fn errors_in_the_text_end_before_anything_is_written() {
     let text = "void step(mesh& S) {\n  x = 1;\n  y = 2;\n}\n";
     let folder = Folder::with(&[("p.vv", text)]);
