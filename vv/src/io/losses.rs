@@ -2,7 +2,7 @@
 
 use super::{Format, color, gltf, obj, ply};
 use crate::diagnostic::Diagnostic;
-use crate::mesh::{Mesh, Property, Type, Value};
+use crate::mesh::{Mesh, Property, Type, Value, Values};
 
 /// Most names that are said of one kind.
 const MOST_NAMED: usize = 8;
@@ -48,6 +48,10 @@ pub(super) fn losses(mesh: &Mesh, format: Format) -> Vec<Diagnostic> {
                 let in_gltf = same.all(|lost| gltf::holds(of, lost.name, lost.ty));
                 diagnostics.push(warning(of, why, &names, format, in_gltf));
             }
+        }
+        let rounded = rounded(mesh, format, of);
+        if !rounded.is_empty() {
+            diagnostics.push(rounding(of, &rounded, format));
         }
         if let Some(v) = joined(mesh, of).filter(|_| is_ply(format)) {
             let (of, files) = (of.name(), files(format));
@@ -95,6 +99,35 @@ fn lost(mesh: &Mesh, format: Format, of: Of) -> Vec<Lost<'_>> {
     .collect()
 }
 
+/// The names of what is written, but of which not every int is kept.
+fn rounded(mesh: &Mesh, format: Format, of: Of) -> Vec<&str> {
+    let kept = |x: i64| match format {
+        Format::Glb | Format::Gltf => whole(f64::from(x as f32)) == Some(x),
+        _ => whole(x as f64) == Some(x),
+    };
+    let written: Vec<usize> = match format {
+        Format::Ply | Format::PlyText | Format::PlyBigEndian => ply::kept(mesh, of),
+        Format::Glb | Format::Gltf if of == Of::Vertices => (0..mesh.vertex_properties().len()).collect(),
+        _ => Vec::new(),
+    };
+    let column = |properties: &'_ [Property], i: usize| match properties.get(i).map(|p| &p.values) {
+        Some(Values::Int(column)) => column.iter().all(|&x| kept(x)),
+        _ => true,
+    };
+    let is_kept = |i: usize| match of {
+        Of::Vertices => column(mesh.vertex_properties(), i),
+        Of::Edges => column(mesh.edge_properties(), i),
+        Of::Whole => !matches!(mesh.mesh_properties().get(i), Some(&(_, Value::Int(x))) if !kept(x)),
+    };
+    let names = properties(mesh, of);
+    written.into_iter().filter(|&i| !is_kept(i)).filter_map(|i| names.get(i).map(|(name, _)| *name)).collect()
+}
+
+/// The int that a double is; 2^63, which is none, is what the greatest ints are rounded to.
+fn whole(x: f64) -> Option<i64> {
+    (x < -(i64::MIN as f64)).then_some(x as i64)
+}
+
 /// Names and types.
 fn properties(mesh: &Mesh, of: Of) -> Vec<(&str, Type)> {
     let all = |properties| <[Property]>::iter(properties).map(|p| (p.name.as_str(), p.values.ty())).collect();
@@ -134,13 +167,7 @@ fn tells(mesh: &Mesh, of: Of, i: usize) -> bool {
 }
 
 fn warning(of: Of, why: Why, names: &[&str], format: Format, in_gltf: bool) -> Diagnostic {
-    let shown: Vec<_> = names.iter().take(MOST_NAMED).map(|name| format!("`{name}`")).collect();
-    let more = names.len().saturating_sub(MOST_NAMED);
-    let what = match (shown.split_last(), more) {
-        (Some((last, [])), 0) => last.clone(),
-        (Some((last, before)), 0) => format!("{} and {last}", before.join(", ")),
-        _ => format!("{} and {more} more", shown.join(", ")),
-    };
+    let what = listed(names);
     let of = of.name();
     let (is, it, names) =
         if names.len() == 1 { ("is", "it", "its name stands") } else { ("are", "them", "their names stand") };
@@ -156,6 +183,25 @@ fn warning(of: Of, why: Why, names: &[&str], format: Format, in_gltf: bool) -> D
         Why::Format => warning.hint(format!("`.ply` files keep {it}")),
         Why::Name => warning.hint("another name would be kept"),
         Why::Vertices => warning,
+    }
+}
+
+fn rounding(of: Of, names: &[&str], format: Format) -> Diagnostic {
+    let (what, of, are) = (listed(names), of.name(), if names.len() == 1 { "is" } else { "are" });
+    let in_gltf = matches!(format, Format::Glb | Format::Gltf);
+    let bits = if in_gltf { 24 } else { 53 };
+    let message = format!("{what} of {of} {are} rounded: {} keep whole numbers up to 2^{bits}", files(format));
+    let warning = super::warning(message);
+    if in_gltf { warning.hint("`.ply` files keep them up to 2^53") } else { warning }
+}
+
+/// `a`, `b` and `c`.
+fn listed(names: &[&str]) -> String {
+    let shown: Vec<_> = names.iter().take(MOST_NAMED).map(|name| format!("`{name}`")).collect();
+    match (shown.split_last(), names.len().saturating_sub(MOST_NAMED)) {
+        (Some((last, [])), 0) => last.clone(),
+        (Some((last, before)), 0) => format!("{} and {last}", before.join(", ")),
+        (_, more) => format!("{} and {more} more", shown.join(", ")),
     }
 }
 

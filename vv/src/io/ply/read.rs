@@ -33,6 +33,7 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
         match element.name {
             b"vertex" => {
                 let mut table = Table::read(&mut source, element, stop)?;
+                diagnostics.extend(table.rounding(element));
                 positions = table.positions();
                 values.vertices.extend(table.colors(element));
                 values.vertices.extend(table.properties(&mut ignored));
@@ -42,6 +43,7 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
             b"tristrips" => faces.read_strips(&mut source, element, vertices.count, stop)?,
             b"edge" => {
                 let mut table = Table::read(&mut source, element, stop)?;
+                diagnostics.extend(table.rounding(element));
                 let ends = table.ends(element, vertices.count)?;
                 let mut named = table.properties(&mut ignored);
                 diagnostics.extend(first_of_each(&mut named, &show(element.name)));
@@ -50,6 +52,7 @@ pub(in super::super) fn read(bytes: &[u8], stop: &Stop) -> Result<(Polygons, Vec
             }
             b"mesh" => {
                 let table = Table::read(&mut source, element, stop)?;
+                diagnostics.extend(table.rounding(element));
                 let mut named = table.properties(&mut ignored);
                 diagnostics.extend(first_of_each(&mut named, &show(element.name)));
                 values.mesh.extend(named.into_iter().filter_map(|p| Some((p.name, p.values.get(0)?))));
@@ -90,13 +93,15 @@ enum Source<'a> {
 enum Number {
     Int(i64),
     Double(f64),
+    /// A whole number in the text that is none of the doubles.
+    Rounded(f64),
 }
 
 impl Number {
     fn double(self) -> f64 {
         match self {
             Self::Int(x) => x as f64,
-            Self::Double(x) => x,
+            Self::Double(x) | Self::Rounded(x) => x,
         }
     }
 
@@ -105,6 +110,7 @@ impl Number {
         match self {
             Self::Int(x) => Some(x),
             Self::Double(x) => (x == x.trunc() && x.abs() < 1e15).then_some(x as i64),
+            Self::Rounded(_) => None,
         }
     }
 }
@@ -118,7 +124,7 @@ impl<'a> Source<'a> {
                 let number = if scalar.is_integer() {
                     integer(word).map(Number::Int).ok_or_else(|| format!("{} is no integer", show(word)))
                 } else {
-                    any_number(word).map(Number::Double)
+                    any_number(word).map(|x| if is_rounded(word, x) { Number::Rounded(x) } else { Number::Double(x) })
                 };
                 number.map(Some).map_err(|why| invalid(words.place(), why))
             }
@@ -181,6 +187,12 @@ impl<'a> Source<'a> {
     }
 }
 
+/// Whether a whole number is another one as a double, and not one that is written so.
+fn is_rounded(word: &[u8], x: f64) -> bool {
+    const EXACT: f64 = (1u64 << 53) as f64;
+    x.abs() >= EXACT && integer::<i128>(word).is_some_and(|whole| integer(x.to_string().as_bytes()) != Some(whole))
+}
+
 /// The file ends within an element.
 fn ends(source: &Source<'_>, element: &Element<'_>, rows: u64) -> ReadError {
     let message = format!("the file ends after {rows} of {} rows of {}", element.count, show(element.name));
@@ -194,6 +206,8 @@ fn is_normal(name: &[u8]) -> bool {
 /// The columns of single numbers of an element; lists are passed over, as are normals.
 struct Table<'a> {
     columns: Vec<(&'a [u8], Column)>,
+    /// Of which whole numbers were rounded.
+    rounded: Vec<&'a [u8]>,
 }
 
 enum Column {
@@ -212,7 +226,7 @@ impl Column {
 
 impl<'a> Table<'a> {
     fn read(source: &mut Source<'_>, element: &Element<'a>, stop: &Stop) -> Result<Self, ReadError> {
-        let mut columns = Vec::new();
+        let (mut columns, mut rounded) = (Vec::new(), Vec::new());
         let places: Vec<Option<usize>> = element
             .properties
             .iter()
@@ -228,10 +242,14 @@ impl<'a> Table<'a> {
             .collect();
         rows(source, element, stop, |source, row, property, number| {
             let Some(place) = places[property] else { return Ok(()) };
-            match (&mut columns[place].1, number) {
+            let (name, column) = &mut columns[place];
+            if matches!(number, Number::Rounded(_)) && !rounded.contains(name) {
+                rounded.push(name);
+            }
+            match (column, number) {
                 (Column::Ints(column), Number::Int(x)) => column.push(x),
                 (Column::Doubles(column), number) => column.push(number.double()),
-                (Column::Ints(_), Number::Double(_)) => {} // integers are read as such
+                (Column::Ints(_), _) => {} // integers are read as such
             }
             let is_coordinate = matches!(element.properties[property].name, b"x" | b"y" | b"z");
             if is_coordinate && element.name == b"vertex" && !number.double().is_finite() {
@@ -240,7 +258,7 @@ impl<'a> Table<'a> {
             }
             Ok(())
         })?;
-        Ok(Self { columns })
+        Ok(Self { columns, rounded })
     }
 
     /// Reads the rows and keeps nothing.
@@ -251,6 +269,14 @@ impl<'a> Table<'a> {
     fn take(&mut self, name: &[u8]) -> Option<Column> {
         let i = self.columns.iter().position(|(n, _)| *n == name)?;
         Some(self.columns.remove(i).1)
+    }
+
+    /// A warning if not every number is what the file says.
+    fn rounding(&self, element: &Element<'_>) -> Option<Diagnostic> {
+        let names: Vec<_> = self.rounded.iter().take(MOST_NAMED).map(|name| show(name)).collect();
+        let (names, element) = (names.join(", "), show(element.name));
+        let message = format!("whole numbers of {names} of {element} are rounded: a double keeps those up to 2^53");
+        (!self.rounded.is_empty()).then(|| warning(message))
     }
 
     fn positions(&mut self) -> Vec<DVec3> {
@@ -290,7 +316,7 @@ impl<'a> Table<'a> {
 
     /// What is left, with vectors put together from their coordinates; names that no program can say go to `ignored`.
     fn properties(self, ignored: &mut Vec<String>) -> Vec<Property> {
-        let Self { mut columns } = self;
+        let Self { mut columns, .. } = self;
         let mut properties = Vec::new();
         while !columns.is_empty() {
             let (name, column) = columns.remove(0);
@@ -494,7 +520,7 @@ fn corner(number: Number, what: &str, place: Place, vertex_count: u64) -> Result
     v.ok_or_else(|| {
         let said = match number {
             Number::Int(v) => v.to_string(),
-            Number::Double(v) => v.to_string(),
+            Number::Double(v) | Number::Rounded(v) => v.to_string(),
         };
         invalid(place, format!("{what} has a corner at vertex {said}, but {}", range(vertex_count)))
     })

@@ -178,3 +178,40 @@ fn of_many_names_some_are_said() {
          place for them (`.ply` files keep them)",
     );
 }
+
+#[test]
+fn whole_numbers_that_a_format_rounds_are_named() {
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    let mesh = |on_vertices: &[(&str, i64)], on_edges: i64, whole: i64| {
+        let (mut mesh, _) = read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
+        let [v, q] = [0, 1].map(|i| mesh.vertices().nth(i).unwrap());
+        for &(name, value) in on_vertices {
+            let i = mesh.declare_vertex_property(name, Value::Int(0));
+            mesh.set_vertex_value(i, q, Value::Int(value));
+        }
+        let i = mesh.declare_edge_property("kind", Value::Int(0));
+        mesh.set_edge_value(i, v, q, Value::Int(on_edges));
+        mesh.declare_mesh_property("step", Value::Int(whole));
+        mesh
+    };
+    const PLY: i64 = 1 << 53;
+    const GLTF: i64 = 1 << 24;
+    let all_kept = mesh(&[("a", PLY), ("b", -PLY), ("c", i64::MIN), ("d", 3 << 60)], PLY + 2, PLY);
+    let ply = |of: &str| format!("{of} rounded: `.ply` files keep whole numbers up to 2^53");
+    let none = mesh(&[("a", PLY + 1), ("b", i64::MAX)], -PLY - 1, PLY + 1);
+    for format in [Format::Ply, Format::PlyText, Format::PlyBigEndian] {
+        check(&all_kept, format, "");
+        let all = ["`a` and `b` of the vertices are", "`kind` of the edges is", "`step` of the mesh is"];
+        check(&none, format, &all.map(ply).join("\n"));
+    }
+    for format in [Format::Glb, Format::Gltf] {
+        let files = format!("`.{}` files", format.extension());
+        check(&mesh(&[("a", GLTF), ("b", -GLTF), ("c", GLTF + 2)], 0, 0), format, "");
+        let rounded = format!(
+            "`a` of the vertices is rounded: {files} keep whole numbers up to 2^24 (`.ply` files keep them up to 2^53)"
+        );
+        check(&mesh(&[("a", GLTF + 1), ("b", GLTF)], 0, 0), format, &rounded);
+        check(&mesh(&[("a", i64::MAX)], 0, 0), format, &rounded);
+    }
+    check(&mesh(&[("sharpness", 5)], 0, 0), Format::Obj, "");
+}

@@ -205,3 +205,12 @@ fn a_face_of_many_corners_is_written_and_read() {
         assert_eq!(face_list(&again), face_list(&mesh));
     }
 }
+
+#[test]
+fn whole_numbers_that_no_double_is_are_said_to_be_rounded() {
+    let header = "property double a\nproperty double b\nproperty int c\n";
+    let kept = " 9007199254740992 -1152921504606847000 9007199254740993";
+    check(&triangle(header, [kept, " 1e300 0.1 0", " nan -inf 0"]), "1 2 3");
+    let said = "1 2 3\nWarning: whole numbers of `a`, `b` of `vertex` are rounded: a double keeps those up to 2^53";
+    check(&triangle(header, [kept, " 9007199254740993 1 0", " 0 -9223372036854775807 0"]), said);
+}
