@@ -86,10 +86,13 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a fact.
+    /// Adds a fact, if it was not said yet.
     #[must_use]
     pub fn evidence(mut self, fact: impl Into<String>) -> Self {
-        self.evidence.push(fact.into());
+        let fact = fact.into();
+        if !self.evidence.contains(&fact) {
+            self.evidence.push(fact);
+        }
         self
     }
 

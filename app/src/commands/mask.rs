@@ -2,6 +2,7 @@
 
 mod drawn;
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -38,6 +39,9 @@ Examples:
 
 /// A step for every three vertices: more would take too long.
 const MOST: usize = 20_000;
+
+/// Weights of a mesh's masks that are nearer than this are the same.
+const SAME: f64 = 1e-10;
 
 /// What `vv mask` takes.
 #[derive(Debug, Args)]
@@ -211,7 +215,7 @@ impl Bench<'_> {
         let masks = self.measure(&mesh).map_err(|failure| self.ended(failure))?;
         let of = |mask: &[(Vertex, f64)]| weights(mask, |v| v.to_string(), &[]);
         let mut rows: Vec<Mask> = Vec::new();
-        let mut seen: Vec<Vec<f64>> = Vec::new();
+        let mut seen = Alike::default();
         let mut drawn = Vec::new();
         for (v, mask) in masks.result.vertices().zip(&masks.weights) {
             if arguments.vertex.is_some_and(|wanted| wanted != v.index() + 1) || !masks.result.set.contains(v) {
@@ -219,13 +223,9 @@ impl Bench<'_> {
             }
             let mut sorted: Vec<f64> = mask.iter().map(|(_, w)| *w).collect();
             sorted.sort_by(f64::total_cmp);
-            let alike = |other: &Vec<f64>| {
-                other.len() == sorted.len() && other.iter().zip(&sorted).all(|(a, b)| (a - b).abs() < 1e-10)
-            };
-            match seen.iter().position(alike) {
+            match seen.find_or_add(sorted) {
                 Some(i) => rows[i].count += 1,
                 None => {
-                    seen.push(sorted);
                     if arguments.drawing.is_asked_for() {
                         drawn.push(arguments.drawing.of_mesh(&mesh, mask));
                     }
@@ -326,6 +326,32 @@ impl Bench<'_> {
     }
 }
 
+/// Sorted weights of masks, each with those that come near it.
+#[derive(Default)]
+struct Alike {
+    masks: Vec<Vec<f64>>,
+    /// By a number that is near where weights are.
+    cells: BTreeMap<(usize, i64), Vec<usize>>,
+}
+
+impl Alike {
+    /// Which mask has the same weights, the first of them; `None` if none had, and then this one has.
+    fn find_or_add(&mut self, weights: Vec<f64>) -> Option<usize> {
+        let near = |other: &Vec<f64>| other.iter().zip(&weights).all(|(a, b)| (a - b).abs() < SAME);
+        // Weights as near as that differ in this sum by less than a cell is wide.
+        let n = weights.len();
+        let sum: f64 = weights.iter().enumerate().map(|(i, w)| (i + 1) as f64 * w).sum();
+        let cell = (sum / (SAME * ((n + 1) * (n + 1)) as f64)).floor() as i64;
+        let cells = (cell.saturating_sub(1)..=cell.saturating_add(1)).filter_map(|cell| self.cells.get(&(n, cell)));
+        let found = cells.flatten().copied().filter(|&i| near(&self.masks[i])).min();
+        if found.is_none() {
+            self.cells.entry((n, cell)).or_default().push(self.masks.len());
+            self.masks.push(weights);
+        }
+        found
+    }
+}
+
 fn named(star: &Star, class: &Class) -> Mask {
     let most = class.mask.iter().map(|(_, w)| *w).fold(0.0, f64::max);
     let nearest: Vec<String> =
@@ -400,5 +426,28 @@ impl Table {
 impl Weight {
     fn text(&self) -> String {
         format!("{}: {}", self.of.join(" "), shown(self.weight, DECIMALS))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Alike;
+
+    #[test]
+    fn masks_with_the_same_weights_are_found_again_wherever_they_come() {
+        let mut seen = Alike::default();
+        let mask = |i: usize| vec![i as f64 / 777.0, 0.5, 1.0 - i as f64 / 777.0];
+        let all: Vec<_> = (0..300).map(|i| seen.find_or_add(mask(i))).collect();
+        assert!(all.iter().all(Option::is_none));
+        for i in 0..300 {
+            let by = |x: f64| mask(i).iter().map(|w| w + x).collect();
+            for near in [-0.9e-10, 0.0, 0.9e-10] {
+                assert_eq!(seen.find_or_add(by(near)), Some(i), "{i} {near}");
+            }
+        }
+        assert_eq!(seen.find_or_add(vec![1.0]), None, "another number of weights");
+        assert_eq!(seen.find_or_add(vec![1.0 + 3e-10]), None);
+        assert_eq!(seen.find_or_add(vec![1.0 + 2.5e-10]), Some(301));
+        assert_eq!(seen.find_or_add(vec![f64::NAN]), None);
     }
 }

@@ -71,7 +71,7 @@ pub(super) fn order(triangles: &[Triangle], face_of: &[u32], broken: &[bool], st
         }
         let numbers = component.iter().flat_map(|&face| &of_face[face as usize]);
         let pieces = numbers.map(|&number| Piece { corners: triangles[number as usize].corners.to_vec(), number });
-        cut(pieces.collect(), triangles, &mut order);
+        cut(pieces.collect(), triangles, &mut order, stop)?;
     }
     Ok(order)
 }
@@ -217,10 +217,11 @@ enum Task {
 }
 
 /// Paints pieces, cut along the planes of their triangles: first what is behind one, then it, then what is before.
-fn cut(pieces: Vec<Piece>, triangles: &[Triangle], order: &mut Order) {
+fn cut(pieces: Vec<Piece>, triangles: &[Triangle], order: &mut Order, stop: &Stop) -> Result<(), Stopped> {
     let mut budget = MOST_PIECES.saturating_sub(order.painted.len());
     let mut tasks = vec![Task::Cut(pieces)];
     while let Some(task) = tasks.pop() {
+        stop.check()?;
         let pieces = match task {
             Task::Cut(pieces) if pieces.len() > 1 && budget > 0 => pieces,
             Task::Cut(mut pieces) | Task::Paint(mut pieces) => {
@@ -272,6 +273,7 @@ fn cut(pieces: Vec<Piece>, triangles: &[Triangle], order: &mut Order) {
         }
         tasks.extend([Task::Cut(before), Task::Paint(within), Task::Cut(behind)]);
     }
+    Ok(())
 }
 
 /// A plane with its normal towards the eye.
@@ -307,4 +309,20 @@ fn by_distance(triangles: &[Triangle], flat: &[bool]) -> Vec<Painted> {
     numbers.par_sort_by(|a, b| depth(a).total_cmp(&depth(b)).then(a.cmp(b)));
     let corners = |n: u32| triangles[n as usize].corners.map(DVec3::xy).to_vec();
     numbers.into_iter().map(|n| Painted::Piece(corners(n), n)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cutting_is_given_up_when_nobody_waits_for_it() {
+        let triangle = |corners: [[f64; 3]; 3]| Piece { corners: corners.map(DVec3::from).to_vec(), number: 0 };
+        let pieces = vec![triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]); 2];
+        let stop = Stop::new();
+        stop.request(Stopped::ByUser);
+        let mut order = Order { painted: Vec::new(), is_exact: true };
+        assert_eq!(cut(pieces, &[], &mut order, &stop), Err(Stopped::ByUser));
+        assert!(order.painted.is_empty());
+    }
 }

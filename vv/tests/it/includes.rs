@@ -87,6 +87,10 @@ fn a_flip_or_a_contraction_that_would_join_neighbours_is_not_offered() {
     for (mesh, expected) in [("tetrahedron.obj", "0 0"), ("octahedron.obj", "24 24"), ("square-open.obj", "16 6")] {
         assert_eq!(outcome(&["edits"], count, &shipped(mesh)).1, [expected], "{mesh}");
     }
+    // Neither can be what is no edge, nor what lies along a hole, from whichever end.
+    let others = "step { int flips = 0; forall p in S forall q in S \
+        if (p != q && (nextto q in p == null || prevto q in p == null)) flips += can_flip(p, q) ? 1 : 0; print flips; }";
+    assert_eq!(outcome(&["edits"], others, &shipped("square-open.obj")).1, ["0"]);
 }
 
 #[test]
@@ -205,6 +209,14 @@ fn a_grid_has_the_squares_that_it_is_asked_for() {
         let (faces, _) = surface(&mesh);
         assert_eq!((mesh.set.len(), faces.len()), ((m + 1) * (n + 1), m * n));
         assert!(faces.iter().all(|f| f.len() == 4));
+    }
+}
+
+#[test]
+fn a_grid_of_no_squares_is_nothing() {
+    for (m, n) in [(0, 0), (0, 3), (3, 0), (-1, 2), (2, -1), (-3, -3)] {
+        let text = format!("step {{ S = grid({m}, {n}); }}");
+        assert_eq!(outcome(&["build"], &text, &shipped("cube.obj")).0.set.len(), 0, "{m} {n}");
     }
 }
 

@@ -123,6 +123,16 @@ fn vertices_outside_the_set_are_forgotten() {
     );
 }
 
+#[test]
+fn a_ring_is_quoted_once() {
+    check_close(
+        "1: 2 3, 2:, 3:",
+        "1: 2 3, 2: , 3: ",
+        &["2 neighbours do not name the vertex that names them | ring of v1: v2 v3 | ring of v2: empty | \
+           ring of v3: empty"],
+    );
+}
+
 /// The first `old` vertices have 1, 2, 4, 8, … as a double, 1, 2, 3, … as an int, all others 0 and 0.
 #[track_caller]
 fn check_inherited(rings: &str, old: usize, expected: &str) {
