@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 use app::document::MeshSource;
 use app::render::Headless;
 use app::scene::{Pointer, Scene, Style};
+use app::watch::Watch;
 use app::worker::{Event, Frame, Recipe, Request, Worker};
 use app::{evaluation, files, library, trace};
 use glam::DVec2;
@@ -107,7 +108,7 @@ fn million() {
     phase("export, OFF", || write(&mesh, &found, Format::Off).unwrap());
 }
 
-/// From a changed text to the frame that the window shows: a mesh of some thousand faces, three steps.
+/// From a file that an editor writes to the frame that the window shows: a mesh of some thousand faces, three steps.
 fn edit() {
     trace::collect();
     let text = library::program("loop.vv").unwrap().text;
@@ -149,6 +150,20 @@ fn edit() {
         sums.into_iter().for_each(|(name, time)| rows.entry(name).or_default().push(time));
         rows.entry("request to frame").or_default().push(computed);
         rows.entry("request to frame on the GPU").or_default().push(all);
+    }
+    let file = folder.join("watched.vv");
+    std::fs::write(&file, text).unwrap();
+    let (waker, woken) = mpsc::channel();
+    let mut watch = Watch::start(move || _ = waker.send(())).unwrap();
+    watch.set_files([file.clone()]);
+    for round in 0..ROUNDS {
+        std::thread::sleep(Duration::from_millis(200 + 7 * round as u64)); // at any time between two looks
+        let began = Instant::now();
+        std::fs::write(&file, format!("{text}\n// {round}")).unwrap();
+        while watch.change().is_none() {
+            woken.recv_timeout(Duration::from_secs(60)).unwrap();
+        }
+        rows.entry("written to noticed").or_default().push(began.elapsed());
     }
     println!("an edit of the program: generation 3 of {} faces, {last} faces", found.len());
     for (name, mut times) in rows {

@@ -15,8 +15,8 @@ use notify_debouncer_full::notify::event::{AccessKind, AccessMode, EventKind};
 use notify_debouncer_full::notify::{RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
-/// How long a file must rest before it is looked at: the pieces of one write belong together.
-const REST: Duration = Duration::from_millis(80);
+/// How long a file must rest before it is looked at, and how often that is asked: the pieces of one write belong together.
+const REST: Duration = Duration::from_millis(25);
 /// How often files are looked at without having been told.
 const LOOK: Duration = Duration::from_secs(1);
 
@@ -51,7 +51,7 @@ impl Watch {
         let events = messages.clone();
         let thread = std::thread::Builder::new().name("watch".to_owned()).spawn(move || {
             let mut post = Post { files: BTreeMap::new(), folders: BTreeSet::new(), debouncer: None };
-            post.debouncer = new_debouncer(REST, None, move |told: DebounceEventResult| {
+            post.debouncer = new_debouncer(REST, Some(REST), move |told: DebounceEventResult| {
                 // That a file was read is no news; to look for it would be to read it again, for ever.
                 if told.map_or(true, |told| told.iter().any(|event| changes_something(event.kind))) {
                     let _ = events.send(Message::Event);
@@ -179,7 +179,8 @@ impl Post {
 
 impl Seen {
     /// Whether the content is another than at the last look. A file that cannot be read has not changed: it is on its
-    /// way, unless it is missing for longer than anybody takes to write it.
+    /// way, unless it is missing for longer than anybody takes to write it. One that was just emptied is, too, until the
+    /// next look that nobody asked for.
     fn look(&mut self, path: &Path, told: bool) -> bool {
         let stamp = stamp(path);
         if stamp.is_some() {
@@ -195,7 +196,8 @@ impl Seen {
             return false;
         }
         self.stamp = stamp;
-        let content = fingerprint(path);
+        let emptied = told && self.content.is_some() && stamp.is_some_and(|(_, length)| length == 0);
+        let content = if emptied { None } else { fingerprint(path) };
         self.unread = stamp.is_some() && content.is_none();
         content.is_some_and(|content| self.content.replace(content) != Some(content))
     }
@@ -251,5 +253,26 @@ mod tests {
         assert_eq!(stamp(&path), Some((time, length)));
         assert!(seen.look(&path, false), "it has a content now");
         assert!(!seen.look(&path, false), "and no other");
+    }
+
+    /// As editors write that empty a file first.
+    #[test]
+    fn an_emptied_file_is_on_its_way_until_nobody_wrote_to_it_for_a_while() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        let mut seen = Seen::default();
+        std::fs::write(&path, "one").unwrap();
+        assert!(seen.look(&path, true));
+        std::fs::write(&path, "").unwrap();
+        assert!(!seen.look(&path, true));
+        std::fs::write(&path, "one").unwrap();
+        assert!(!seen.look(&path, true), "it is as it was");
+        std::fs::write(&path, "").unwrap();
+        assert!(!seen.look(&path, true));
+        assert!(seen.look(&path, false), "it stays empty");
+        assert!(!seen.look(&path, false));
+        let mut new = Seen::default();
+        assert!(new.look(&path, true), "what it is from the first is no change that waits");
+        assert!(!new.look(&path, false));
     }
 }
