@@ -1,7 +1,7 @@
 //! Counts and invariants of a mesh.
 
 use super::Mesh;
-use super::faces::Degrees;
+use super::faces::{Degrees, degrees};
 use super::finder::Finder;
 use super::members::Members;
 use super::survey::Survey;
@@ -24,8 +24,9 @@ pub struct Statistics {
     pub boundary_loops: usize,
     /// V − E + F, where a vertex without neighbours counts as one face more: a sphere with one point.
     pub euler_characteristic: i64,
-    /// Handles, summed over the components: g in V − E + F = 2 − 2g − b for a component with b boundary loops, each of
-    /// which a disk would close. `None` if the mesh is not valid.
+    /// Handles of the surface, summed over its components: g in V − E + F = 2 − 2g − b for a component with b boundary
+    /// loops, each of which a disk would close. Wires, edges without faces, are no part of it, however they cross.
+    /// `None` if the mesh is not valid.
     pub genus: Option<u64>,
     /// No boundary: every edge has a face on either side.
     pub closed: bool,
@@ -58,6 +59,13 @@ pub fn statistics(mesh: &Mesh, faces: impl Into<Degrees> + Send, stop: &Stop) ->
     let (components, boundary_loops) = (vertices - merges?, boundary_loops?);
     let euler_characteristic = (vertices + faces + isolated) as i64 - edges as i64;
     let handles = 2 * components as i64 - euler_characteristic - boundary_loops as i64;
+    let genus = match u64::try_from(handles / 2).ok().filter(|_| valid) {
+        Some(genus) if genus > 0 => match without_wires(mesh, &survey, stop)? {
+            Some(surface) => statistics(&surface, degrees(&surface, stop)?, stop)?.genus,
+            None => Some(genus),
+        },
+        genus => genus,
+    };
     Ok(Statistics {
         vertices,
         edges,
@@ -65,7 +73,7 @@ pub fn statistics(mesh: &Mesh, faces: impl Into<Degrees> + Send, stop: &Stop) ->
         components,
         boundary_loops,
         euler_characteristic,
-        genus: if valid { u64::try_from(handles / 2).ok() } else { None },
+        genus,
         closed: one_sided == 0 && survey.with_gaps.is_empty(),
         valid,
         valences: survey.valences.into_pairs(),
@@ -107,6 +115,26 @@ fn boundary_loops(mesh: &Mesh, members: &Members, survey: &Survey, stop: &Stop) 
         }
     }
     Ok(loops)
+}
+
+/// A valid mesh without its wires, which have gaps on either side; `None` if it has none. Cost: the slots of vertices with
+/// gaps.
+fn without_wires(mesh: &Mesh, survey: &Survey, stop: &Stop) -> Result<Option<Mesh>, Stopped> {
+    let mut surface = None;
+    for &v in &survey.with_gaps {
+        stop.check()?;
+        let slots = mesh.ring(v).slots();
+        let around = |i: usize| [slots[(i + slots.len() - 1) % slots.len()], slots[(i + 1) % slots.len()]];
+        let is_wire = |i: usize| slots[i].is_some() && around(i) == [None, None];
+        if (0..slots.len()).any(is_wire) {
+            // It goes with the gap after it; a ring with gaps ends in one.
+            let stays = |i: &usize| !is_wire(*i) && (slots[*i].is_some() || *i == 0 || !is_wire(i - 1));
+            let rest: Vec<_> = (0..slots.len()).filter(stays).map(|i| slots[i]).collect();
+            // The items stood in a ring, so that none is there twice, and there is room where more were.
+            let _ = surface.get_or_insert_with(|| mesh.clone()).make(v, &rest);
+        }
+    }
+    Ok(surface)
 }
 
 /// By how much neighbourhood brings the number of components below that of the vertices in the set. Where neighbours
