@@ -4,7 +4,6 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{Block, InstBuilder, Value, types};
 
 use super::known::{Bounds, Fact, Key};
-use super::lanes::{fours, unaligned};
 use super::ring::Source;
 use super::{Symbol, Translated, Translator};
 use crate::engine::native::Mutation;
@@ -23,9 +22,9 @@ pub(super) struct Ways {
 enum Held {
     /// So many: those behind are another ring's.
     Up(Value),
-    /// All of so many, whatever the ring's length: behind its end lies what once was in it, which is hardly ever met, and
-    /// then the runtime asks again.
-    All(i64),
+    /// All, whatever the ring's length: behind its end lies what once was in it, which is hardly ever met, and then the
+    /// runtime asks again.
+    All,
 }
 
 /// What lies behind the end of a ring in the slots that are edited.
@@ -94,11 +93,11 @@ impl<'p> Translator<'_, 'p> {
                 // Stores as wide as the loads that will follow, for narrow ones would hold those up.
                 let place = t.lanes_of_offset(at);
                 let new = t.b.ins().splat(types::I32X4, x);
-                for (k, lane) in lanes.into_iter().enumerate() {
-                    let offsets = t.lane_offsets(4 * k as u32);
+                for (k, lane) in (0..).zip(lanes) {
+                    let offsets = t.lane_offsets(4 * k);
                     let here = t.b.ins().icmp(IntCC::Equal, place, offsets);
                     let result = t.b.ins().bitselect(here, new, lane);
-                    t.b.ins().store(unaligned(flags), result, start, 16 * k as i32);
+                    t.store_lanes(result, k, start, width, flags);
                 }
             }
             t.b.ins().jump(done, &[]);
@@ -146,7 +145,7 @@ impl<'p> Translator<'_, 'p> {
                     let beyond = self.is_beyond(first, len);
                     self.b.ins().icmp_imm_s(IntCC::Equal, beyond, 0)
                 }
-                Held::All(width) => self.is_among_first(lanes, x, width),
+                Held::All => self.matches(lanes, x).0,
             };
             self.leave_if(twice, slow);
         }
@@ -189,9 +188,9 @@ impl<'p> Translator<'_, 'p> {
         let ring = self.bounds(v, false);
         let Bounds { start, len, flags } = ring;
         self.by_room(v, ring, 1, slow, |t, width| {
-            let lanes = t.lanes(start, (width + 3) & !3, flags);
+            let lanes = t.lanes(start, width, flags);
             let at = t.place_to_edit(&lanes, a, v, len, done);
-            t.leave_unless_it_may_enter(&lanes, x, v, Held::All(width), slow);
+            t.leave_unless_it_may_enter(&lanes, x, v, Held::All, slow);
             let after = (side == Side::After) != t.mutated(Mutation::SplicesOnTheOtherSide);
             // The slot behind which x shall stand: that before the first is the last.
             let (here, at) = if after {
@@ -206,13 +205,11 @@ impl<'p> Translator<'_, 'p> {
             let new = t.b.ins().splat(types::I32X4, x);
             let put: Vec<Value> =
                 lanes.iter().zip(here).map(|(&lane, here)| t.b.ins().bitselect(here, new, lane)).collect();
-            let fours: Vec<(u32, Value, Value)> = fours(width)
-                .map(|first| (first, t.four(&lanes, i64::from(first)), t.four(&put, i64::from(first) - 1)))
-                .collect();
-            for (first, lane, shifted) in fours {
-                let behind = t.lanes_behind(at, first);
+            for (k, lane) in (0..).zip(lanes) {
+                let shifted = t.four(&put, 4 * i64::from(k) - 1);
+                let behind = t.lanes_behind(at, 4 * k);
                 let result = t.b.ins().bitselect(behind, shifted, lane);
-                t.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
+                t.store_lanes(result, k, start, width, flags);
             }
             let len = t.b.ins().iadd_imm_s(len, 1);
             let head = t.head(v, false);
@@ -355,27 +352,25 @@ impl<'p> Translator<'_, 'p> {
     /// Takes a vertex out of a ring that is edited by so many slots.
     fn erase_lanes(&mut self, x: Value, v: Value, ring: Bounds, width: i64, behind: Behind, ways: Ways) {
         let Bounds { start, len, flags } = ring;
-        let lanes = self.lanes(start, (width + 3) & !3, flags);
+        let lanes = self.lanes(start, width, flags);
         let at = self.place_to_edit(&lanes, x, v, len, ways.done);
-        // Lanes from `at` on take what stands behind them.
-        let fours: Vec<(u32, Value, Value)> = fours(width)
-            .map(|first| (first, self.four(&lanes, i64::from(first)), self.four(&lanes, i64::from(first) + 1)))
-            .collect();
         let end = (behind == Behind::Others).then(|| {
             let bytes = self.bytes_of(len);
             let last = self.b.ins().iadd_imm_s(bytes, -4);
             self.lanes_of_offset(last)
         });
-        for (first, lane, shifted) in fours {
-            let from = self.lanes_behind(at, first + 1);
+        // Lanes from `at` on take what stands behind them.
+        for (k, &lane) in (0..).zip(&lanes) {
+            let shifted = self.four(&lanes, 4 * i64::from(k) + 1);
+            let from = self.lanes_behind(at, 4 * k + 1);
             let mut result = self.b.ins().bitselect(from, shifted, lane);
             if let Some(end) = end {
                 // Those behind the ring get back what they hold.
-                let offsets = self.lane_offsets(first);
+                let offsets = self.lane_offsets(4 * k);
                 let within = self.b.ins().icmp(IntCC::SignedGreaterThan, end, offsets);
                 result = self.b.ins().bitselect(within, result, lane);
             }
-            self.b.ins().store(unaligned(flags), result, start, 4 * first as i32);
+            self.store_lanes(result, k, start, width, flags);
         }
         let len = self.b.ins().iadd_imm_s(len, -1);
         if !self.mutated(Mutation::ErasesNothing) {

@@ -14,10 +14,27 @@ pub(super) struct First {
 }
 
 impl Translator<'_, '_> {
-    /// Slots from an address on, which nothing aligns.
+    /// Slots from an address on, which nothing aligns, an even number; lanes beyond them are null.
     pub(super) fn lanes(&mut self, start: Value, width: i64, flags: MemFlagsData) -> Vec<Value> {
         let flags = unaligned(flags);
-        (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32)).collect()
+        let whole = (0..width / 4).map(|k| self.b.ins().load(types::I32X4, flags, start, 16 * k as i32));
+        let mut lanes: Vec<Value> = whole.collect();
+        if width % 4 != 0 {
+            let two = self.b.ins().load(types::I64, flags, start, 16 * lanes.len() as i32);
+            let two = self.b.ins().scalar_to_vector(types::I64X2, two);
+            lanes.push(self.b.ins().bitcast(types::I32X4, little_endian(), two));
+        }
+        lanes
+    }
+
+    /// Stores the lanes of one of the parts in which [`Translator::lanes`] loads slots: a load of what two stores wrote has
+    /// to wait until both are in the cache.
+    pub(super) fn store_lanes(&mut self, mut lanes: Value, k: u32, start: Value, width: i64, flags: MemFlagsData) {
+        if i64::from(4 * k + 4) > width {
+            let two = self.b.ins().bitcast(types::F64X2, little_endian(), lanes);
+            lanes = self.b.ins().extractlane(two, 0);
+        }
+        self.b.ins().store(unaligned(flags), lanes, start, 16 * k as i32);
     }
 
     /// The first slot of the lanes that holds `x`.
@@ -27,7 +44,7 @@ impl Translator<'_, '_> {
     }
 
     /// A bit, or two, for each slot that holds `x`, i64, and how many.
-    fn matches(&mut self, lanes: &[Value], x: Value) -> (Value, u32) {
+    pub(super) fn matches(&mut self, lanes: &[Value], x: Value) -> (Value, u32) {
         let mut equal = self.lanes_with(lanes, x);
         let mut each = 1;
         if equal.len() > 1 {
@@ -54,15 +71,6 @@ impl Translator<'_, '_> {
     /// Bytes before it; no place in the lanes if there is none.
     pub(super) fn bytes_before(&mut self, first: First) -> Value {
         self.b.ins().ishl_imm_u(first.bits, if first.each == 2 { 1 } else { 2 })
-    }
-
-    /// Not zero where one of the first `width` slots holds `x`.
-    pub(super) fn is_among_first(&mut self, lanes: &[Value], x: Value, width: i64) -> Value {
-        let (bits, each) = self.matches(lanes, x);
-        if width == 4 * lanes.len() as i64 {
-            return bits;
-        }
-        self.b.ins().band_imm_u(bits, (1 << (width * i64::from(each))) - 1)
     }
 
     /// Lanes of half the width, two by two.
@@ -169,11 +177,6 @@ impl Translator<'_, '_> {
             None => self.b.ins().iconst(types::I8, 0),
         }
     }
-}
-
-/// The first slots of the fours that `width` slots are edited by; where two overlap, both come to the same.
-pub(super) fn fours(width: i64) -> impl Iterator<Item = u32> {
-    (0..width as u32).step_by(4).map(move |first| first.min((width as u32).saturating_sub(4)))
 }
 
 /// A kind of memory, for loads and stores of more than one slot.
