@@ -227,7 +227,7 @@ impl<'a> Checker<'a> {
                 error.hint(format!("`forall p in {text}` walks the vertices of a ring"))
             }
             (_, Type::Ring) if e.ty == vertex => {
-                error.hint(format!("a ring begins empty, `ring r;`, and grows by `add {text} to r;`"))
+                error.hint(format!("`ring r; forall x in {text} add x to r;` copies the ring of {text}"))
             }
             (Type::Value(ValueType::Vec), Type::Value(ValueType::Double)) => {
                 error.hint("take a coordinate, `.x`, or its `length`")

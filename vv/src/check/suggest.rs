@@ -57,6 +57,7 @@ impl<'a> Checker<'a> {
         } else {
             match name {
                 "faces" => error.hint("say of which mesh: `forall f in faces S`"),
+                "infinity" | "INFINITY" | "inf" | "INF" | "DBL_MAX" | "Infinity" => error.hint("write `1.0 / 0.0`"),
                 _ => self.suggest_variable(error, name, span, wanted),
             }
         };
@@ -135,6 +136,9 @@ impl<'a> Checker<'a> {
                     error.hint(format!("one comes with vv: `#include \"{}\"`", shipped(name).unwrap_or_default()))
                 }
                 "vertex" => error.hint("`vertex v;` creates a vertex"),
+                "neighbours" | "neighbors" | "adjacent" | "ring" => {
+                    error.hint("`forall q in p` walks the neighbours of p")
+                }
                 "size" | "count" | "len" => error.hint("count in a loop: `int n = 0; forall v in S n += 1;`"),
                 _ => error,
             },
@@ -167,6 +171,9 @@ impl<'a> Checker<'a> {
             [Element::Vertex, Element::Edge, Element::Mesh].map(|other| self.properties(other).names.get(name));
         let error = match others.into_iter().flatten().next() {
             _ if name == "pos" => error.hint("positions belong to vertices"),
+            _ if element == Element::Vertex && matches!(name, "ring" | "neighbours" | "neighbors") => {
+                error.hint("`forall q in v` walks the ring of v, `make r nb_of v;` makes r its ring")
+            }
             _ if element == Element::Vertex && matches!(name, "position" | "point") => {
                 error.fix("the position is `pos`", span, "pos")
             }

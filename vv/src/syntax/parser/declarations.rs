@@ -7,6 +7,7 @@ use super::super::tree::{
 use super::super::words;
 use super::{Parser, Role};
 use crate::diagnostic::Diagnostic;
+use crate::source::Span;
 
 impl Parser<'_> {
     /// Whether a declaration begins at a token. `vec`, `point` and `vector` may be variables: they are types where a
@@ -44,8 +45,18 @@ impl Parser<'_> {
                     .hint("sets of vertices are of type `mesh`; values are kept as properties: `v$name`"),
             );
         }
+        if matches!(ty.kind, TypeKind::Vertex | TypeKind::Mesh) && self.kind() == Kind::OpenBrace {
+            self.properties_here(ty.span, if ty.kind == TypeKind::Mesh { "mesh" } else { "vertex" });
+            return Declaration { is_const, ty, declarators: Vec::new(), span: self.since(start) };
+        }
         let declarators = self.declarators(ty);
         Declaration { is_const, ty, declarators, span: self.since(start) }
+    }
+
+    /// Refuses `vertex { … };` among statements.
+    pub(super) fn properties_here(&mut self, span: Span, block: &str) {
+        let error = Diagnostic::error(span, "properties are declared outside of functions");
+        self.fail(error.hint(format!("move `{block} {{ … }};` before the functions")));
     }
 
     pub(super) fn declarators(&mut self, ty: TypeName) -> Vec<Declarator> {

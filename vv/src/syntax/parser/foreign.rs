@@ -37,11 +37,16 @@ impl Parser<'_> {
             self.synchronize();
             return StmtKind::Empty;
         }
+        if word == "edge" && next == Kind::OpenBrace {
+            self.properties_here(span, word);
+            self.synchronize();
+            return StmtKind::Empty;
+        }
         let qualified = if word == "std" && next == Kind::DoubleColon { self.word_at(start + 2) } else { "" };
         let construct = match qualified {
             "cout" | "cerr" | "printf" => words::foreign_construct(qualified),
             "" => {
-                let always = matches!(word, "switch" | "catch" | "throw" | "goto" | "assert" | "printf");
+                let always = matches!(word, "switch" | "catch" | "throw" | "goto" | "assert" | "printf" | "foreach");
                 let begins = match next {
                     Kind::Word => !self.token(start + 1).new_line,
                     Kind::OpenBrace | Kind::Foreign | Kind::Less => true,

@@ -90,3 +90,25 @@ fn old_meshes() {
     let message = "a mesh has no old members, its vertices have old rings and properties";
     check_statement("forall v in `S print v;", message, "the mesh as it is");
 }
+
+#[test]
+fn properties_inside_functions() {
+    let message = "properties are declared outside of functions";
+    check_statement("vertex { double age; };", message, "move `vertex { … };` before the functions");
+    check_statement("edge { double age; };", message, "move `edge { … };` before the functions");
+    check_statement("mesh { int age; }", message, "move `mesh { … };` before the functions");
+}
+
+#[test]
+fn rings_as_properties_and_values() {
+    let hint = "`make r nb_of v;`";
+    check_statement("print p$ring;", "vertices have no property `ring`", hint);
+    check_statement("ring r = p; print r;", "this is a `vertex`, not a `ring`", "`ring r; forall x in p add x to r;`");
+    check_statement("print any in neighbors(p);", "there is no function `neighbors`", "`forall q in p`");
+}
+
+#[test]
+fn loops_and_numbers_of_other_languages() {
+    check_statement("foreach (q in S) { print q; }", "vv loops over sets and rings with `forall`", "`forall p in S`");
+    check_statement("double d = infinity; print d;", "`infinity` is not declared", "`1.0 / 0.0`");
+}
