@@ -17,7 +17,7 @@ pub(super) const MAX_SEARCHES: u32 = 50;
 pub(super) const SHIPPED: [(&str, &[&str]); 17] = [
     ("insert.vv", &["insert"]),
     ("split.vv", &["split"]),
-    ("edits.vv", &["halve", "can_flip", "flip", "can_contract", "contract", "pyramid", "triangulate"]),
+    ("edits.vv", &["halve", "can_flip", "flip", "can_contract", "contract", "split_vertex", "pyramid", "triangulate"]),
     ("geometry.vv", &["middle", "area", "area_round", "normal", "angle", "cotangent", "bend", "edge_weight"]),
     ("build.vv", &["polygon", "triangle", "quad", "grid"]),
     ("inherit.vv", &["inherit"]),

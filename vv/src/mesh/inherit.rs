@@ -1,6 +1,7 @@
 //! Values for new vertices, of properties that whoever made them knows nothing of.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::{Mesh, Value, Vertex};
 use crate::stop::{Stop, Stopped};
@@ -36,7 +37,7 @@ pub fn inherit(mesh: &mut Mesh, old: usize, properties: &[usize], stop: &Stop) -
             stop.check()?;
             pairs.extend(mesh.ring(v).vertices().filter(|x| !known[x.index()]).map(|x| (x, v)));
         }
-        pairs.sort_unstable();
+        pairs.par_sort_unstable();
         givers.clear();
         for pairs in pairs.chunk_by(|a, b| a.0 == b.0) {
             stop.check()?;

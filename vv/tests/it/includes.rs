@@ -94,6 +94,29 @@ fn a_flip_or_a_contraction_that_would_join_neighbours_is_not_offered() {
 }
 
 #[test]
+fn a_vertex_is_split_and_contracted_back() {
+    // Each vertex inside, at each neighbour, so many neighbours further.
+    for (mesh, further) in [("octahedron.obj", 1), ("icosahedron.obj", 2), ("grid-open.obj", 3), ("cube.obj", 1)] {
+        let split = format!(
+            "mesh old = S; forall p in old {{ if (gaps p > 0) continue; forall a in p {{ \
+             vertex b = a; for (int i = 0; i < {further}; ++i) b = nextto b in p; \
+             int n = valence p, of_a = valence a; vertex x = split_vertex(p, a, b); \
+             if (valence x != {further} + 2 || valence p != n - {further} + 2 || valence a != of_a + 1) print p; \
+             if (nextto p in x != a || prevto p in x != b || nextto x in p != b || prevto x in p != a) print p; \
+             if (x$pos != p$pos) print p;"
+        );
+        let before = shipped(mesh);
+        let (after, printed) = outcome(&["edits"], &format!("step {{ {split} contract(x, p); }} }} }}"), &before);
+        assert_eq!((surface(&after), printed), (surface(&before), vec![]), "{mesh}");
+        // A triangle on either side of x–p, and else the faces that there were.
+        let (after, _) = outcome(&["edits"], &format!("step {{ {split} add x to S; return; }} }} }}"), &before);
+        let [new, old] = [&after, &before].map(|mesh| surface(mesh).0);
+        assert_eq!((new.len(), after.set.len()), (old.len() + 2, before.set.len() + 1), "{mesh}");
+        assert_eq!(new.iter().filter(|f| f.len() == 3).count(), old.iter().filter(|f| f.len() == 3).count() + 2);
+    }
+}
+
+#[test]
 fn a_pyramid_makes_a_triangle_of_each_side() {
     let text = "step { mesh N; forall f in faces S add pyramid(f) to N; merge S with N; \
                 forall c in N print valence c, \" \", length(c$pos); }";
