@@ -2,7 +2,8 @@
 //!
 //! In a large mesh the neighbours of a vertex lie far from it, and each is met by two accesses that depend on one another:
 //! of its head, then of its ring. A round is too long for the machine to begin with the next ones meanwhile. But what a loop
-//! goes through is known before it begins, so compiled code can ask for what later rounds will touch.
+//! goes through is known before it begins, so compiled code can ask for what later rounds will touch. Positions of neighbours
+//! are asked for in meshes of any size where a loop over a ring meets them, as that takes three instructions.
 //!
 //! What is said here decides only what is asked for early: nothing that is computed rests on it.
 
@@ -54,19 +55,27 @@ enum Origin {
 impl Ahead {
     /// Of a loop over a set, with the vertex `local`.
     pub(super) fn of_set(program: &Program, local: LocalId, body: &[Stmt]) -> Self {
-        Self::of(program, local, Origin::Vertex, body)
+        Self::of(program, [(local, Origin::Vertex)], body)
     }
 
     /// Of a loop over faces.
     pub(super) fn of_faces(program: &Program, local: LocalId, body: &[Stmt]) -> Self {
-        Self::of(program, local, Origin::Face, body)
+        Self::of(program, [(local, Origin::Face)], body)
     }
 
-    fn of(program: &Program, local: LocalId, origin: Origin, body: &[Stmt]) -> Self {
+    /// Of a loop over the ring, perhaps the old one, of a vertex: of what is in it.
+    pub(super) fn of_ring(program: &Program, vertex: LocalId, old: bool, locals: &[LocalId], body: &[Stmt]) -> Touched {
+        let beside = locals.iter().map(|&local| (local, Origin::Beside { old }));
+        Self::of(program, beside.chain([(vertex, Origin::Vertex)]), body).around[usize::from(old)]
+    }
+
+    fn of(program: &Program, origins: impl IntoIterator<Item = (LocalId, Origin)>, body: &[Stmt]) -> Self {
         let mut ahead = Self::default();
         let mut budget = BUDGET;
         let mut reader = Reader { program, origins: Vec::new(), ahead: &mut ahead, budget: &mut budget, depth: DEPTH };
-        reader.define(local, origin);
+        for (local, origin) in origins {
+            reader.define(local, origin);
+        }
         reader.read(body);
         ahead
     }
@@ -187,7 +196,7 @@ impl Reader<'_> {
 mod tests {
     use super::{Ahead, Touched};
     use crate::engine::native::effects::{Node, each};
-    use crate::ir::StmtKind;
+    use crate::ir::{ExprKind, Ring, StmtKind};
 
     /// What the first loop over a set or over faces touches.
     #[track_caller]
@@ -206,6 +215,24 @@ mod tests {
         });
         let Ahead { corners: c, around: [now, old] } = found.unwrap();
         assert_eq!([c, now, old].map(said), [corners, around, around_old]);
+    }
+
+    /// What the first loop over a ring touches of what is in it.
+    #[track_caller]
+    fn check_ring(text: &str, expected: &str) {
+        let program = crate::compile("test.vv", text, &mut |_, _| Err(String::new())).program.unwrap();
+        let function = program.function(program.default_rule().unwrap()).unwrap();
+        let mut found = None;
+        each(&function.body, &mut |node| {
+            let Node::Stmt(s) = node else { return };
+            let StmtKind::ForallRing { local, follower, ring: Ring::Of { vertex, old }, body, .. } = &s.kind else {
+                return;
+            };
+            let ExprKind::Local(vertex) = vertex.kind else { return };
+            let locals: Vec<_> = std::iter::once(*local).chain(*follower).collect();
+            found.get_or_insert_with(|| Ahead::of_ring(&program, vertex, *old, &locals, body));
+        });
+        assert_eq!(said(found.unwrap()), expected);
     }
 
     fn said(touched: Touched) -> String {
@@ -246,6 +273,19 @@ mod tests {
             "rings",
             "",
         );
+    }
+
+    #[test]
+    fn a_loop_over_a_ring_touches_what_is_in_it() {
+        let check = |body: &str, expected| {
+            check_ring(&format!("void step(mesh& S) {{ synchronize S; forall p in S {body} }}"), expected);
+        };
+        check("forall q in p p$pos += q$pos;", "positions");
+        check("forall q in `p p$pos += `q$pos;", "old positions");
+        check("forall q, r in `p p$pos += `r$pos;", "old positions");
+        check("forall q in `p p$pos += `(nextto q in `p)$pos;", "old positions");
+        check("forall q in p p$pos += p$pos;", "");
+        check("forall q in p p$pos += (any in q)$pos;", "rings");
     }
 
     #[test]

@@ -19,8 +19,9 @@
 //! - The arrays are not shared with another mesh while compiled code runs: [`own`] copies those that are.
 //! - A panic does not cross compiled frames: [`guard`] turns it into a status.
 //! - What is asked for early ([`super::ahead`]) is reached through heads of vertices that are clamped to those that have
-//!   one, null too, and slots within their rings; corners are read up to [`CORNERS_AHEAD`](super::context::CORNERS_AHEAD)
-//!   behind the last, where there are so many. The asking itself is a prefetch, which reads nothing.
+//!   one, null too, and slots within their rings, or fewer than [`PADDING`](super::context::PADDING) behind them; corners are
+//!   read up to [`CORNERS_AHEAD`](super::context::CORNERS_AHEAD) behind the last, where there are so many. The asking itself
+//!   is a prefetch, which reads nothing and takes any address.
 //! - The native stack is bounded: every compiled function that is called asks whether there is room left.
 #![expect(unsafe_code, reason = "compiled code and what it shares with the runtime; the argument stands above")]
 

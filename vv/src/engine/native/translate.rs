@@ -254,6 +254,8 @@ pub(super) struct Translator<'t, 'p> {
     name: String,
     /// What the loop over faces in hand touches of their vertices, until a loop over vertices asks for them.
     corners: Touched,
+    /// The vertex of the loop over a set that is being translated: rings of such lie one behind the other.
+    in_turn: Option<Value>,
     /// In a loop that does not ask in each round whether to stop: its place, for calls of the runtime in it ask.
     ask_rarely: Option<Span>,
     /// Nothing has been written to the mesh: the first statement of the run is being translated.
@@ -310,6 +312,7 @@ impl<'t, 'p> Translator<'t, 'p> {
             list_mark: None,
             name: name.to_owned(),
             corners: Touched::default(),
+            in_turn: None,
             ask_rarely: None,
             pristine: false,
         }

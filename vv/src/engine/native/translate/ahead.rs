@@ -2,7 +2,8 @@
 //!
 //! At the head of a round, in meshes that caches do not hold: the ring of the vertex of a round far ahead is read, and
 //! heads and positions of its neighbours are asked for; of a round half as far ahead, whose neighbours' heads have come,
-//! the neighbours' rings. What asks is a prefetch, which waits for nothing and never fails. A load would do harm: what
+//! the neighbours' rings. At the head of a round over a ring, in all meshes: the position of what stands some slots behind.
+//! What asks is a prefetch, which waits for nothing and never fails. A load would do harm: what
 //! follows it cannot retire before it has come.
 
 use cranelift_codegen::ir::condcodes::IntCC;
@@ -20,6 +21,9 @@ const CAN_PREFETCH: bool = cfg!(target_arch = "x86_64");
 
 /// Neighbours are asked for so many rounds before they are met, their rings half as many.
 const ROUNDS: i64 = 48;
+
+/// Positions of what is in rings are asked for so many slots before they are met: fewer than may be read behind the last ring.
+const SLOTS_AHEAD: i32 = context::PADDING as i32 - 4;
 
 /// How many neighbours are asked for, of vertices that have so many. Where two are met, as round the vertex that splits an
 /// edge, rounds are so short that the machine is with the next ones by itself.
@@ -93,6 +97,18 @@ impl Translator<'_, '_> {
         }
         self.b.ins().jump(go, &[]);
         self.continue_in(go);
+    }
+
+    /// At the head of a round over the ring of a vertex that a loop over a set walks: asks for positions, as they are and as
+    /// they were, of what is met some rounds later, in the ring behind it, too, which mostly is the next vertex' own.
+    pub(super) fn ask_for_positions(&mut self, positions: [bool; 2], at: Value, flags: MemFlagsData) {
+        let touched = Touched { positions, ..Touched::default() };
+        if !CAN_PREFETCH || !touched.any() {
+            return;
+        }
+        let q = self.b.ins().uload32(flags, at, 4 * SLOTS_AHEAD);
+        let columns = self.columns(touched);
+        self.ask_for(q, &columns);
     }
 
     /// Begins code that is skipped in meshes that caches hold, and where old values are meant and there are none.

@@ -124,7 +124,9 @@ impl<'p> Translator<'_, 'p> {
         let rounds = Rounds { local, follower: None, first, end, begin: None, flags, gaps: true, brief: false, span };
         let ahead = Ahead::of_set(self.program, local, body);
         let ask = |t: &mut Self, at| t.ask_ahead(&ahead, at, end, flags);
-        self.walk(&rounds, Walk::Set(depth), exit, body, ask, |_, _| {})?;
+        let before = self.in_turn;
+        self.walk(&rounds, Walk::Set(depth), exit, body, ask, |t, sides| t.in_turn = sides.first().map(|&(v, _)| v))?;
+        self.in_turn = before;
         self.continue_in(exit);
         self.call(Symbol::SetWalkEnd, &[depth]);
         Ok(())
@@ -181,7 +183,19 @@ impl<'p> Translator<'_, 'p> {
         self.forget(effects);
         let rounds = Rounds { local, follower, first, end, begin, flags, gaps, brief: is_brief(body), span };
         let corners = if orbit && begin.is_none() { std::mem::take(&mut self.corners) } else { Touched::default() };
-        let ask = |t: &mut Self, at| t.ask_for_corners(corners, at, flags);
+        let mut positions = [false; 2];
+        if let (Ring::Of { vertex, old }, Source::Of { v, .. }) = (ring, source)
+            && let ExprKind::Local(vertex) = vertex.kind
+            && self.in_turn == Some(v)
+            && !moves
+        {
+            let locals: Vec<LocalId> = std::iter::once(local).chain(follower).collect();
+            positions = Ahead::of_ring(self.program, vertex, *old, &locals, body).positions;
+        }
+        let ask = |t: &mut Self, at| {
+            t.ask_for_corners(corners, at, flags);
+            t.ask_for_positions(positions, at, flags);
+        };
         self.walk(&rounds, walk, exit, body, ask, |t, sides| {
             if let Source::Of { v, .. } = source {
                 for &(x, _) in sides {
