@@ -60,6 +60,9 @@ pub struct Style {
     pub theme: Theme,
     /// Leave the background transparent.
     pub transparent: bool,
+    /// The colour behind it, in place of those of the theme.
+    #[serde(skip)]
+    pub backdrop: Option<[u8; 3]>,
     /// Width of edges between two faces; edges of the boundary are drawn wider in proportion.
     pub edge_width: f32,
     /// Diameter of vertices.
@@ -190,6 +193,7 @@ impl Default for Style {
             control: false,
             theme: Theme::Light,
             transparent: false,
+            backdrop: None,
             edge_width: 1.2,
             vertex_size: 6.0,
             surface: Surface::Lights,

@@ -11,6 +11,7 @@
 
 mod bench;
 mod history;
+mod idle;
 mod printer;
 mod results;
 

@@ -71,7 +71,8 @@ impl Viewport {
             news(ui, rect, session, None);
             return;
         };
-        let style = Style { theme: theme_of(ui), up: session.navigation.up, ..session.document.style };
+        let (theme, up, backdrop) = (theme_of(ui), session.navigation.up, session.backdrop());
+        let style = Style { theme, up, backdrop, ..session.document.style };
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
         let _span = trace::span("window: viewport");
@@ -130,7 +131,8 @@ impl Viewport {
         inks.write();
         self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
-        let room = counts(ui, rect, &frame, legend::width(rect, colors.as_ref()));
+        let plate = if backdrop.is_some() { 0.95 } else { 0.75 };
+        let room = counts(ui, rect, &frame, plate, legend::width(rect, colors.as_ref()));
         let legend = legend::show(ui, room, session, &frame, colors.as_ref(), pointer);
         if style.axes {
             gizmo::show(ui, rect, &camera);
@@ -185,7 +187,7 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, legend: Option<Rect>) {
 
 /// The counts at the lower edge, in as many lines as they need; no number is broken. Returns the room above them, where
 /// something as wide as `beside` may stand at the right.
-fn counts(ui: &Ui, rect: Rect, frame: &Frame, beside: f32) -> Rect {
+fn counts(ui: &Ui, rect: Rect, frame: &Frame, opacity: f32, beside: f32) -> Rect {
     let s = &frame.statistics;
     let parts = [
         format!("generation {}", frame.request.generation),
@@ -208,9 +210,9 @@ fn counts(ui: &Ui, rect: Rect, frame: &Frame, beside: f32) -> Rect {
     let galley = lay(lines.join("\n"));
     let size = galley.size();
     let at = rect.left_bottom() + vec2(10.0, -8.0 - size.y);
-    // Grid and mesh may lie behind it.
+    // Grid and mesh may lie behind it, and any colour.
     let plate = Rect::from_min_size(at, size).expand2(vec2(5.0, 2.0));
-    ui.painter().rect_filled(plate, 4.0, ui.visuals().panel_fill.gamma_multiply(0.75));
+    ui.painter().rect_filled(plate, 4.0, ui.visuals().panel_fill.gamma_multiply(opacity));
     let spoken = lines.join(", ").replace("   ", ", ");
     let said = ui.interact(plate, ui.scope_id().with("counts"), Sense::empty());
     said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));

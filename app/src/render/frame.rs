@@ -142,12 +142,13 @@ pub(super) fn frame(
     // Whose lines of sight are parallel is infinitely far away.
     let seen_from = if camera.orthographic { camera.world_from_view * DVec3::new(0.0, 0.0, 1e6) } else { eye };
     let ground = ground(scene, style.up);
+    let behind = |color| style.backdrop.map_or(color, |[r, g, b]| [r, g, b, 0xff]);
     Frame {
         view_from_scene: view_from_scene.as_mat4(),
         clip_from_scene: (clip_from_view * view_from_scene).as_mat4(),
         tile: tile.transform(),
-        background_top: linear(palette.background_top),
-        background_bottom: linear(palette.background_bottom),
+        background_top: linear(behind(palette.background_top)),
+        background_bottom: linear(behind(palette.background_bottom)),
         front: linear(palette.front),
         back: linear(palette.back),
         eye: seen_from.as_vec3(),

@@ -180,6 +180,7 @@ impl Session {
             Event::Finished(frame) => {
                 self.problems.ran(&frame.warnings, &Arc::default(), frame.request.generation);
                 self.inspection.fault = None;
+                self.say_if_idle(&frame);
                 self.show(frame, Some(of));
                 self.stale = None;
                 self.running = None;
@@ -188,6 +189,15 @@ impl Session {
                 self.running = None;
                 self.failed(failed, &request);
             }
+        }
+    }
+
+    /// Who asks for a step that changes nothing shall not doubt the button.
+    fn say_if_idle(&mut self, next: &Frame) {
+        let steps = next.request.generation > self.shown_generation();
+        let note = next.warnings.iter().find(|warning| warning.severity == Severity::Note);
+        if let Some(note) = note.filter(|_| steps) {
+            self.say(Severity::Note, note.message.clone());
         }
     }
 

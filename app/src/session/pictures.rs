@@ -105,7 +105,7 @@ impl Session {
         self.style_file.figures().unwrap_or_default() // it was read before
     }
 
-    /// What a loaded style says lies behind pictures; the window itself does not change.
+    /// What a loaded style says lies behind pictures, in the window, too.
     #[must_use]
     pub fn backdrop(&self) -> Option<[u8; 3]> {
         self.style_file.backdrop().unwrap_or_default() // it was read before

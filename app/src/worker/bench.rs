@@ -16,6 +16,7 @@ use vv::mesh::{Mesh, Value};
 use vv::stop::{Stop, Stopped};
 
 use super::history::{History, frame};
+use super::idle::is_idle;
 use super::printer::Printer;
 use super::results;
 use super::{Event, Failed, Frame, Made, Reached, Recipe, Report, Request, Shared, lock};
@@ -24,6 +25,9 @@ use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
 use crate::inspect::findings::Findings;
 use crate::{files, library, trace};
+
+/// Of a step that does nothing that one could see.
+const IDLE: &str = "the step changed nothing";
 
 /// The state of the worker's thread.
 pub(super) struct Bench {
@@ -293,7 +297,12 @@ impl Bench {
                 }
             };
             printer.flush();
-            let made = result.map_err(failed)?;
+            let printed = printer.used;
+            let mut made = result.map_err(failed)?;
+            let before = generation.checked_sub(1).and_then(|g| history.generations.get(&g));
+            if before.is_some_and(|before| !printed && is_idle(&before.generation.mesh, &made.mesh)) {
+                made.warnings.push(Diagnostic::new(Severity::Note, None, IDLE));
+            }
             let reached = Reached { vertices: made.mesh.set.len(), step: made.step_s, kept: true };
             history.insert(generation, made);
             lock(&self.shared.reached).insert(generation, reached);

@@ -19,12 +19,14 @@ pub(super) struct Printer<'a> {
     lines: VecDeque<String>,
     bytes: usize,
     dropped: u64,
+    /// Whether anything was printed.
+    pub used: bool,
     flushed: Option<Instant>,
 }
 
 impl<'a> Printer<'a> {
     pub fn new(shared: &'a Shared, wake: &'a dyn Fn(), generation: u64) -> Self {
-        Self { shared, wake, generation, lines: VecDeque::new(), bytes: 0, dropped: 0, flushed: None }
+        Self { shared, wake, generation, lines: VecDeque::new(), bytes: 0, dropped: 0, used: false, flushed: None }
     }
 
     /// Hands over what is left.
@@ -42,6 +44,7 @@ impl<'a> Printer<'a> {
 impl Output for Printer<'_> {
     fn print(&mut self, line: &str) -> Result<(), OutputClosed> {
         let line = console::shortened(line);
+        self.used = true;
         self.bytes += line.len();
         self.lines.push_back(line);
         while self.lines.len() > console::MAX_LINES || self.bytes > console::MAX_BYTES {

@@ -90,13 +90,23 @@ fn a_name_that_is_of_no_picture_is_refused() {
 }
 
 #[test]
-fn a_picture_has_the_colour_behind_it_that_the_style_says_unless_another_one_is_asked_for() {
+fn window_and_pictures_have_the_colour_behind_them_that_the_style_says_unless_another_one_is_asked_for() {
     use app::preferences::{Background, PictureOptions, Preferences};
     let folder = TempDir::new().unwrap();
     let at = |name: &str| folder.path().join(name);
     let mut window = octahedron();
     std::fs::write(at("style.json"), "{\"background\": \"#102030\"}").unwrap();
+    let seen = |window: &mut Harness<'static, App>| {
+        settle(window);
+        let corner = window.get_by_label("Viewport").rect().right_top() + egui::vec2(-3.0, 3.0);
+        window.render().unwrap().get_pixel(corner.x as u32, corner.y as u32).0
+    };
+    let before = seen(&mut window);
     window.state_mut().session_mut().chosen(Purpose::OpenStyle, at("style.json"));
+    assert_eq!(seen(&mut window), [0x10, 0x20, 0x30, 255], "the window is as pictures are");
+    window.state_mut().apply(Command::Undo);
+    assert_eq!(seen(&mut window), before);
+    window.state_mut().apply(Command::Redo);
     for (background, corner) in [
         (Background::AsSeen, [0x10, 0x20, 0x30, 255]),
         (Background::White, [255; 4]),
