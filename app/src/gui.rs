@@ -159,6 +159,8 @@ pub struct App {
     was_full_screen: bool,
     scale: Scale,
     font_size: f32,
+    /// Which windows were open over the panels: dialog, reference, render options.
+    over: [bool; 3],
     /// What had the keys before a dialog opened.
     focus: Option<egui::Id>,
     /// Frames until they get them back, from the dialog's last one on.
@@ -208,6 +210,7 @@ impl App {
             was_full_screen: false,
             scale: Scale::default(),
             font_size: 0.0,
+            over: [false; 3],
             focus: None,
             asked: 0,
             held: Vec::new(),
@@ -434,10 +437,14 @@ impl eframe::App for App {
         menu_keys::walk(ui.ctx());
         self.editors.current_mut().lead_on(ui.ctx());
         if self.session.dialog.is_none() {
-            keys::take(ui.ctx(), &self.session, self.editors.current().takes_escape(ui.ctx()), &mut commands);
+            let reference = self.session.reference && self.reference.takes_escape(ui.ctx());
+            let escape_is_taken = reference || self.editors.current().takes_escape(ui.ctx());
+            keys::take(ui.ctx(), &self.session, escape_is_taken, &mut commands);
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
-        let picture = self.panels(ui, &mut commands);
+        let over = [self.session.dialog.is_some(), self.session.reference, self.session.render_options];
+        let covered = std::mem::replace(&mut self.over, over) != over || self.session.dialog.is_some();
+        let picture = keys::unpointed(ui, covered, |ui| self.panels(ui, &mut commands));
         render_options::show(ui.ctx(), picture, &self.session, &mut commands);
         if self.session.reference {
             self.reference.show(ui.ctx(), &mut commands);

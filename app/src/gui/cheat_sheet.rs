@@ -23,7 +23,8 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.heading("Keys");
             ui.add_space(12.0);
-            let field = ui.add(TextEdit::singleline(query).hint_text("find").desired_width(220.0));
+            let field =
+                ui.add(TextEdit::singleline(query).hint_text(super::widgets::hint("find")).desired_width(220.0));
             field.request_focus();
             field.accessible_name("Find a key");
         });

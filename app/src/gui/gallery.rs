@@ -62,7 +62,9 @@ impl Gallery {
             ui.horizontal(|ui| {
                 ui.heading("Gallery");
                 ui.add_space(8.0);
-                let field = TextEdit::singleline(&mut query).hint_text("find a program").desired_width(200.0);
+                let field = TextEdit::singleline(&mut query)
+                    .hint_text(super::widgets::hint("find a program"))
+                    .desired_width(200.0);
                 let field = ui.add(field).accessible_name("Find a program");
                 if ui.memory(|m| m.focused().is_none()) {
                     field.request_focus();

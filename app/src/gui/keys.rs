@@ -1,7 +1,7 @@
 //! Keys and dropped files to commands.
 
 use eframe::egui::text_selection::LabelSelectionState;
-use eframe::egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers};
+use eframe::egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers, Ui};
 
 use crate::command::{self, Command, Inspect, ViewAction};
 use crate::navigation::Preset;
@@ -143,6 +143,18 @@ pub fn one_after_another(events: &[Event], dialog: bool) -> usize {
 /// Whether an event comes from the keyboard.
 pub fn is_typed(event: &Event) -> bool {
     matches!(event, Event::Key { .. } | Event::Text(_) | Event::Ime(_) | Event::Paste(_) | Event::Copy | Event::Cut)
+}
+
+/// Makes what is covered by something that was opened, as if nothing pointed at it: the tooltip of what the pointer rests on
+/// would stay before what covers it.
+pub fn unpointed<R>(ui: &mut Ui, covered: bool, make: impl FnOnce(&mut Ui) -> R) -> R {
+    if !covered {
+        return make(ui);
+    }
+    let pointer = ui.input_mut(|i| std::mem::take(&mut i.pointer));
+    let made = make(ui);
+    ui.input_mut(|i| i.pointer = pointer);
+    made
 }
 
 /// Opens what was dropped on the window.

@@ -34,7 +34,7 @@ pub fn show(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
         let keys = Keys::take(ui);
         let field = TextEdit::singleline(&mut query)
-            .hint_text("find a command, an example or a mesh")
+            .hint_text(super::widgets::hint("find a command, an example or a mesh"))
             .font(TextStyle::Heading)
             .margin(Margin::symmetric(10, 8))
             .desired_width(f32::INFINITY);

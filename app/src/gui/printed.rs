@@ -38,7 +38,8 @@ impl Printed {
     /// The filter's field.
     pub fn field(&mut self, ui: &mut Ui) {
         let width = (ui.available_width() - 8.0).clamp(40.0, 110.0);
-        let field = TextEdit::singleline(&mut self.filter).hint_text("filter").desired_width(width);
+        let field =
+            TextEdit::singleline(&mut self.filter).hint_text(super::widgets::hint("filter")).desired_width(width);
         let field = ui.add(field).on_hover_text("only lines that contain this");
         field.accessible_name("Filter lines");
     }

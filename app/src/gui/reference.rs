@@ -9,11 +9,12 @@ use std::sync::LazyLock;
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align, Color32, Context, FontFamily, FontId, Frame, Id, Key, Layout, Margin, RichText, ScrollArea, Stroke,
-    TextEdit, TextFormat, TextStyle, Ui, Window, vec2,
+    Align, Color32, Context, Event, EventFilter, FontFamily, FontId, Frame, Id, Key, Layout, Margin, Modifiers,
+    RichText, ScrollArea, Stroke, TextEdit, TextFormat, TextStyle, Ui, Window, vec2,
 };
 
 use super::editor::color;
+use super::widgets::hint;
 use crate::command::Command;
 use finding::Finding;
 
@@ -46,10 +47,23 @@ pub struct Reference {
     shown: u64,
     /// The section to bring in sight.
     wanted: Option<usize>,
+    /// Whether Escape has left its field, and nothing was done since.
+    left: bool,
     finding: Finding,
 }
 
 impl Reference {
+    /// Whether Escape closes it: pressed twice, first for its field.
+    pub fn takes_escape(&mut self, ctx: &Context) -> bool {
+        let other = |event: &Event| match event {
+            Event::Key { key, pressed, .. } => *pressed && *key != Key::Escape,
+            Event::PointerButton { pressed, .. } => *pressed,
+            _ => false,
+        };
+        self.left &= !ctx.input(|i| i.events.iter().any(other));
+        self.left
+    }
+
     /// Shows it.
     pub fn show(&mut self, ctx: &Context, commands: &mut Vec<Command>) {
         let room = ctx.content_rect();
@@ -66,7 +80,8 @@ impl Reference {
             .resizable(true)
             .constrain(true)
             .show(ctx, |ui| self.content(ui));
-        if !open {
+        let escaped = self.left && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
+        if !open || escaped {
             commands.push(Command::Reference);
         }
     }
@@ -80,7 +95,9 @@ impl Reference {
             .horizontal(|ui| {
                 let room = if count.is_some() { 70.0 } else { 0.0 };
                 let wide = ui.available_width() - room;
-                let field = ui.add(TextEdit::singleline(&mut self.query).hint_text("find").desired_width(wide));
+                let keys = EventFilter { horizontal_arrows: true, escape: true, ..EventFilter::default() };
+                let field = TextEdit::singleline(&mut self.query).hint_text(hint("find")).desired_width(wide);
+                let field = ui.add(field.event_filter(keys));
                 if let Some(count) = count {
                     let tip = "Enter goes to the next place, Shift+Enter to the one before";
                     ui.label(RichText::new(count).small().weak()).on_hover_text(tip);
@@ -91,6 +108,10 @@ impl Reference {
         if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
             self.finding.step(ui.input(|i| i.modifiers.shift));
             field.request_focus();
+        }
+        if field.has_focus() && ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape)) {
+            field.surrender_focus();
+            self.left = true;
         }
         // Who has opened it looks for something; what is typed is not meant for the program any more.
         let pass = ui.ctx().cumulative_pass_nr();

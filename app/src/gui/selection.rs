@@ -78,23 +78,36 @@ fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
 
 /// The same with more in its menu than to copy it.
 fn row_with(ui: &mut Ui, name: &str, value: impl Into<String>, more: impl FnOnce(&mut Ui)) {
-    let label = ui.weak(name);
     let value = value.into();
+    let line = ui.text_style_height(&TextStyle::Body);
+    let above = ((ui.spacing().interact_size.y - line) / 2.0).max(0.0);
+    // A name stands beside the first line of its value.
+    let label = ui.with_layout(Layout::top_down(Align::Min), |ui| {
+        ui.add_space(above);
+        ui.add(eframe::egui::Label::new(RichText::new(name).weak()).extend())
+    });
+    let label = label.inner;
     let room = ui.available_width();
     let font = TextStyle::Body.resolve(ui.style());
     let wide = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
     // A vector that has no room has a line for each number: no exponent is cut.
     let is_long = !ui.is_sizing_pass() && wide(&value) > room; // before the table knows its columns nothing has room
-    let (label_of, layout) = match is_long && value.contains(", ") {
+    let lines = if is_long { value.split(", ").count() } else { 1 };
+    let (label_of, layout) = match lines > 1 {
         true => (
             eframe::egui::Label::new(value.replace(", ", ",\n")).extend().halign(Align::Max),
             Layout::top_down(Align::Max),
         ),
         false => (eframe::egui::Label::new(&value).truncate(), Layout::right_to_left(Align::Center)),
     };
-    // As high as a line, whatever stood there before.
-    let size = vec2(room, ui.spacing().interact_size.y);
-    let response = ui.allocate_ui_with_layout(size, layout, |ui| ui.add(label_of).labelled_by(label.id));
+    // As high as its lines, whatever stood there before.
+    let size = vec2(room, 2.0 * above + lines as f32 * line);
+    let response = ui.allocate_ui_with_layout(size, layout, |ui| {
+        if lines > 1 {
+            ui.add_space(above);
+        }
+        ui.add(label_of).labelled_by(label.id)
+    });
     response.inner.context_menu(|ui| {
         ui.set_min_width(170.0);
         if menu_entry(ui, true, "Copy value", &value) {
@@ -349,7 +362,8 @@ pub fn ask(ctx: &Context, session: &mut Session, commands: &mut Vec<Command>) {
         ui.heading("Select vertex");
         ui.add_space(4.0);
         let label = ui.label(format!("Numbers from v1 to v{most}; two measure a distance, three an angle."));
-        let field = ui.add(TextEdit::singleline(text).hint_text("v12").desired_width(f32::INFINITY));
+        let field =
+            ui.add(TextEdit::singleline(text).hint_text(super::widgets::hint("v12")).desired_width(f32::INFINITY));
         let field = field.labelled_by(label.id);
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         if !field.has_focus() && !field.lost_focus() {

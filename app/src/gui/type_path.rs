@@ -64,7 +64,11 @@ pub fn show(
     let vain = listing.vain.as_ref() == Some(path);
     let stays = (completion.is_some() || !vain) && !ui.input(|i| i.modifiers.shift);
     let keys = EventFilter { tab: stays, horizontal_arrows: true, ..EventFilter::default() };
-    let field = TextEdit::singleline(path).id(id).hint_text("path").desired_width(f32::INFINITY).event_filter(keys);
+    let field = TextEdit::singleline(path)
+        .id(id)
+        .hint_text(widgets::hint("path"))
+        .desired_width(f32::INFINITY)
+        .event_filter(keys);
     let response = ui.add(field).labelled_by(label.id);
     let typed = purpose.with_extension(typed_path::expand(path));
     let named = !path.trim().is_empty() && !path.ends_with('/');

@@ -29,8 +29,12 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let id = Id::unique("name of a viewpoint");
         let mut name: String = ui.data(|d| d.get_temp(id)).unwrap_or_default();
-        let field =
-            ui.add(TextEdit::singleline(&mut name).hint_text("name").desired_width(100.0).align(Align2::LEFT_CENTER));
+        let field = ui.add(
+            TextEdit::singleline(&mut name)
+                .hint_text(super::widgets::hint("name"))
+                .desired_width(100.0)
+                .align(Align2::LEFT_CENTER),
+        );
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         field.accessible_name("Name of the viewpoint");
         let named = !name.trim().is_empty();

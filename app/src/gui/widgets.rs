@@ -184,6 +184,11 @@ pub fn button(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>, comma
     }
 }
 
+/// What an empty field says, beside the cursor, which would stand in its first letter.
+pub fn hint(text: &str) -> RichText {
+    RichText::new(format!("\u{2009}{text}"))
+}
+
 /// The button of a dialog that is meant for most.
 pub fn first_choice(ui: &Ui, text: &str) -> Button<'static> {
     let visuals = ui.visuals();

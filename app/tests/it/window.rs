@@ -209,7 +209,7 @@ fn an_error_while_running_is_located_and_stepping_again_tries_again() {
     assert_eq!(problem.place.unwrap().start.line, 3);
     click(&mut window, "Step");
     assert_eq!(window.state().session().halted().unwrap().generation, 1);
-    write(&mut window, "void f(mesh& S) { }\n");
+    write(&mut window, "void f(mesh& S) { forall v in S v$pos *= 2.0; }\n");
     click(&mut window, "Step");
     assert_eq!((window.state().session().stale(), window.state().session().halted()), (None, None));
     assert_eq!(window.state().session().problems().iter().count(), 0);

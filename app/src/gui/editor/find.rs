@@ -87,7 +87,11 @@ impl Find {
             let wide = (ui.available_width() - 210.0).clamp(60.0, 260.0);
             ui.horizontal(|ui| {
                 let keys = ui.memory(|m| m.has_focus(id)).then(|| entered(ui)).flatten();
-                let field = TextEdit::singleline(&mut self.query).id(id).hint_text("find").desired_width(wide).show(ui);
+                let field = TextEdit::singleline(&mut self.query)
+                    .id(id)
+                    .hint_text(crate::gui::widgets::hint("find"))
+                    .desired_width(wide)
+                    .show(ui);
                 if std::mem::take(&mut self.focus) {
                     let mut state = field.state.clone();
                     let all = eframe::egui::text::CCursorRange::select_all(&field.galley);
@@ -143,7 +147,10 @@ impl Find {
     fn replacing(&mut self, ui: &mut Ui, wide: f32, text: &str, selection: &Range<usize>, wish: &mut Option<Wish>) {
         let id = replacement_id();
         let entered = ui.memory(|m| m.has_focus(id)).then(|| entered(ui)).flatten().is_some();
-        let field = TextEdit::singleline(&mut self.replacement).id(id).hint_text("replace by").desired_width(wide);
+        let field = TextEdit::singleline(&mut self.replacement)
+            .id(id)
+            .hint_text(crate::gui::widgets::hint("replace by"))
+            .desired_width(wide);
         let field = ui.add(field);
         closes(ui, &field, wish);
         field.accessible_name("Replace by");

@@ -415,3 +415,18 @@ fn what_is_told_of_a_vertex_has_the_width_of_a_narrow_inspector_and_no_more() {
     window.get_by_label("Neighbours");
     assert_eq!(margin(&window), before);
 }
+
+#[test]
+fn the_name_of_a_long_value_stands_beside_its_first_line() {
+    let obj = "v 0.12345678 -0.2345678 0.3456789\nv 1.2345678 0.12345 0.9876\nv 0.54321 1.98765 0.4321\nf 1 2 3\n";
+    let (mut window, _folder) = on(obj, PROGRAM);
+    window.set_size(egui::vec2(760.0, 600.0));
+    window.state_mut().apply(Command::Inspect(Inspect::Select(Item::Vertex(v(1)))));
+    window.run_steps(6);
+    let name = window.get_by_label("pos").rect();
+    let value = window.get_by_label_contains("0.12").rect();
+    assert!(value.height() > 2.0 * name.height(), "in three lines: {value} {name}");
+    assert!((name.top() - value.top()).abs() < 3.0, "{name} {value}");
+    let other = window.get_by_label("Born in").rect();
+    assert!(other.height() < name.height() + 1.0, "a name is not broken: {other}");
+}

@@ -115,3 +115,21 @@ fn the_manual_stands_beside_the_work() {
     press(&mut window, Key::F1);
     assert_eq!(sections(&window, "Old values"), 0);
 }
+
+#[test]
+fn a_tooltip_goes_when_a_dialog_opens_over_it() {
+    let mut window = octahedron();
+    window.hover_at(window.get_by_label("Step").rect().center());
+    window.run_steps(60);
+    window.get_by_label("apply the rule once");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Comma);
+    window.run_steps(60);
+    assert!(window.query_by_label("apply the rule once").is_none());
+    press(&mut window, Key::Escape);
+    let away = window.get_by_label("Viewport").rect().center();
+    window.hover_at(away);
+    window.run_steps(4);
+    window.hover_at(window.get_by_label("Step").rect().center());
+    window.run_steps(60);
+    window.get_by_label("apply the rule once");
+}

@@ -43,3 +43,25 @@ fn what_is_found_in_a_block_of_code_is_brought_in_sight_too() {
     let found = window.get_by_label_contains("edge_width").rect();
     assert!(found.bottom() > field.bottom() && found.top() < 700.0, "{found}");
 }
+
+#[test]
+fn escape_leaves_the_field_and_then_closes() {
+    let mut window = octahedron();
+    window.state_mut().apply(Command::Inspect(app::command::Inspect::Select(app::inspect::selection::Item::Vertex(
+        inspecting::v(1),
+    ))));
+    window.state_mut().apply(Command::Reference);
+    window.run_steps(6);
+    look_for(&mut window, "nextto");
+    press(&mut window, Key::Escape);
+    assert!(window.state().session().reference);
+    press(&mut window, Key::Num1);
+    assert_eq!(window.state().session().document.generation, 1, "keys are the window's again");
+    look_for(&mut window, "nextto");
+    press(&mut window, Key::Escape);
+    press(&mut window, Key::Escape);
+    assert!(!window.state().session().reference);
+    assert_eq!(window.state().session().selected().len(), 1, "that is the next one's");
+    press(&mut window, Key::Escape);
+    assert!(window.state().session().selected().is_empty());
+}

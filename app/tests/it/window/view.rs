@@ -475,3 +475,15 @@ fn a_mesh_that_is_out_of_sight_is_offered() {
     assert!(window.query_by_label("the mesh is out of sight").is_none());
     assert_eq!(camera(&window).distance, whole.distance);
 }
+
+#[test]
+fn render_options_open_beside_a_small_picture() {
+    let mut window = octahedron();
+    window.set_size(egui::vec2(900.0, 600.0));
+    window.run_steps(3);
+    press(&mut window, Key::R);
+    window.run_steps(3);
+    let picture = window.get_by_label("Viewport").rect();
+    let options: Vec<_> = window.get_all_by_label("Orthographic").map(|node| node.rect()).collect();
+    assert!(options.iter().all(|option| !option.intersects(picture)), "{options:?} over {picture}");
+}
