@@ -292,6 +292,38 @@ fn a_closed_output_ends_the_step() {
     assert_eq!(run(Engine::Native), run(Engine::Interpret));
 }
 
+/// What takes long in the runtime asks there whether to stop, and is named where it does.
+#[test]
+fn a_stop_is_reported_where_it_was_noticed() {
+    struct StopsAtOnce(Stop);
+    impl Output for StopsAtOnce {
+        fn print(&mut self, _: &str) -> Result<(), OutputClosed> {
+            self.0.request(Stopped::ByTime);
+            Ok(())
+        }
+    }
+    for statement in ["forall f in faces S print f;", "synchronize S;", "synchronize N;", "print S;", "print r;"] {
+        let text = format!(
+            "{OCTAHEDRON}void step(mesh& S) {{ mesh N; ring r; forall v in S {{ add v to N; add v to r; break; }} print 0; {statement} }}"
+        );
+        let program = compile_text(&text);
+        let start = Machine::new(Arc::clone(&program), Engine::Native);
+        let start = start.run(program.start.unwrap(), &Mesh::new(), 0, &Settings::default(), &mut Vec::new()).unwrap();
+        let run = |engine| {
+            let machine = Machine::new(Arc::clone(&program), engine);
+            assert_eq!(machine.engine(), engine);
+            let settings = Settings::default();
+            let mut output = StopsAtOnce(settings.stop.clone());
+            machine.run(program.default_rule().unwrap(), &start, 1, &settings, &mut output).map_err(|failure| {
+                assert_eq!(failure.kind, FailureKind::Stopped(Stopped::ByTime), "{statement}");
+                failure.diagnostic
+            })
+        };
+        let [native, interpreted] = [run(Engine::Native), run(Engine::Interpret)];
+        assert_eq!(native.err(), interpreted.err(), "{statement}");
+    }
+}
+
 /// A program around one of them.
 fn with_new(body: &str) -> String {
     format!(

@@ -15,6 +15,9 @@ impl Run<'_> {
 
     fn synchronize(&mut self, set: usize, pristine: bool) -> Option<()> {
         let members = self.sets.get(set)?.members.clone();
+        if !members.is_empty() {
+            self.fixed.settings.stop.check().ok()?;
+        }
         let universe = self.mesh.vertex_count();
         let covered = members.iter().filter(|&v| self.holds(v)).count();
         let held = self.held.iter().filter(|&&h| h).count();

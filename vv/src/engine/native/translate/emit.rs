@@ -15,6 +15,19 @@ impl Translator<'_, '_> {
         self.leave_if(bad, fail);
     }
 
+    /// As [`Translator::fail_if`], behind work that asks itself whether the run shall stop: if it gave up for that, the run is
+    /// stopped here.
+    pub(super) fn fail_or_stop_if(&mut self, bad: Value, span: Span) {
+        let [ask, next] = [(); 2].map(|()| self.b.create_block());
+        self.b.set_cold_block(ask);
+        self.b.ins().brif(bad, ask, &[], next, &[]);
+        self.continue_in(ask);
+        self.poll(span);
+        let fail = self.fail;
+        self.b.ins().jump(fail, &[]);
+        self.continue_in(next);
+    }
+
     pub(super) fn leave_if(&mut self, bad: Value, to: Block) {
         let next = self.b.create_block();
         if self.b.current_block().is_some_and(|block| self.b.func.layout.is_cold(block)) {
@@ -45,6 +58,13 @@ impl Translator<'_, '_> {
     pub(super) fn call_or_fail(&mut self, symbol: Symbol, operands: &[Value]) {
         if let Some(status) = self.call(symbol, operands) {
             self.fail_if(status);
+        }
+    }
+
+    /// As [`Translator::call_or_fail`], of one that asks whether the run shall stop.
+    pub(super) fn call_or_fail_or_stop(&mut self, symbol: Symbol, operands: &[Value], span: Span) {
+        if let Some(status) = self.call(symbol, operands) {
+            self.fail_or_stop_if(status, span);
         }
     }
 

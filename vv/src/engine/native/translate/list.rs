@@ -9,6 +9,7 @@ use super::{Storage, Symbol, Translated, Translator, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
 use crate::ir::{Expr, ExprKind, LocalId};
+use crate::source::Span;
 
 impl<'p> Translator<'_, 'p> {
     pub(super) fn new_list(&mut self) -> Value {
@@ -156,9 +157,9 @@ impl<'p> Translator<'_, 'p> {
         Ok(())
     }
 
-    pub(super) fn print_list(&mut self, e: &'p Expr) -> Translated<()> {
+    pub(super) fn print_list(&mut self, e: &'p Expr, span: Span) -> Translated<()> {
         let (Bounds { start, len, .. }, mark) = self.list(e)?;
-        self.call_or_fail(Symbol::PrintList, &[start, len]);
+        self.call_or_fail_or_stop(Symbol::PrintList, &[start, len], span);
         self.drop_lists(mark);
         Ok(())
     }

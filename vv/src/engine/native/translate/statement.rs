@@ -81,7 +81,7 @@ impl<'p> Translator<'_, 'p> {
                 pristine |= self.mutated(Mutation::OldIsAsItCame);
                 let (set, mark) = self.set(set)?;
                 let pristine = self.int32(u32::from(pristine));
-                self.call_or_fail(Symbol::Synchronize, &[set, pristine]);
+                self.call_or_fail_or_stop(Symbol::Synchronize, &[set, pristine], s.span);
                 self.drop_sets(mark);
                 self.known.forget_rings(false);
                 self.known.forget_rings(true);
@@ -237,10 +237,10 @@ impl<'p> Translator<'_, 'p> {
                 }
                 PrintItem::Value(e) if e.ty == Type::Mesh => {
                     let (set, mark) = self.set(e)?;
-                    self.call_or_fail(Symbol::PrintSet, &[set]);
+                    self.call_or_fail_or_stop(Symbol::PrintSet, &[set], span);
                     self.drop_sets(mark);
                 }
-                PrintItem::Value(e) if e.ty == Type::Ring => self.print_list(e)?,
+                PrintItem::Value(e) if e.ty == Type::Ring => self.print_list(e, span)?,
                 PrintItem::Value(e) => {
                     let Type::Value(ty) = e.ty else { return Err(wrong_type()) };
                     let value = self.expression(e)?;

@@ -282,7 +282,7 @@ impl<'p> Translator<'_, 'p> {
         let (index, mark) = self.set(set)?;
         let depth = self.call(Symbol::Faces, &[index]).ok_or_else(wrong_type)?;
         let none = self.b.ins().icmp_imm_s(IntCC::Equal, depth, -1);
-        self.fail_if(none);
+        self.fail_or_stop_if(none, set.span);
         let [corners, ends, last] = [0, 8, 16].map(|k| self.load_context(types::I64, context::VALUE + k));
         self.drop_sets(mark);
         self.forget(self.unit.facts.effects_of(body, &[], None));
