@@ -1,11 +1,14 @@
 //! Files that commands read.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
+use app::document::NOWHERE;
 use app::evaluation::within;
 use app::files::{self, FileError};
+use app::library::{self, Shipped};
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::io::{Format, Place, ReadOptions};
 use vv::ir::Program;
@@ -18,14 +21,26 @@ use super::{Exit, Importing, error, fail};
 /// Largest file that is read again to quote a line of it.
 const MOST_QUOTED: u64 = 64 << 20;
 
-/// Reads and checks a program and reports what is wrong with it; what is wrong but no error is also returned.
+/// Reads and checks a program and reports what is wrong with it; what is wrong but no error is also returned. A name that
+/// no file has is that of a program that comes with vv, if one has it, as in `#include`.
 ///
 /// # Errors
 /// [`Exit::Usage`] if it is a mesh, [`Exit::File`] if it cannot be read, [`Exit::Program`] if it has errors.
 pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Diagnostic>), Exit> {
     not_a_mesh(path, reporter)?;
+    if let Some(shipped) = shipped(path) {
+        let said = format!("there is no file {}, so this is the program of that name that comes with vv", shipped.name);
+        reporter.report(&[Diagnostic::new(Severity::Note, None, said)], &Sources::default());
+        return compiled(&Path::new(NOWHERE).join(shipped.name), shipped.text, reporter);
+    }
     let text = files::read_program(path).map_err(|error| file_failed(&error, reporter))?;
     compiled(path, &text, reporter)
+}
+
+/// The program that comes with vv and is meant by a path that is a name only, and that nothing has.
+fn shipped(path: &Path) -> Option<&'static Shipped> {
+    let is_free = path.symlink_metadata().is_err_and(|error| error.kind() == ErrorKind::NotFound);
+    path.to_str().filter(|_| is_free).and_then(library::program)
 }
 
 /// As [`program`], of a text.

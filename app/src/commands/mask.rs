@@ -48,6 +48,8 @@ const SAME: f64 = 1e-10;
 #[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
 pub struct Arguments {
     /// The program; `-` is stdin.
+    ///
+    /// A name that no file has is that of a program that comes with vv, such as loop.vv.
     program: PathBuf,
     /// The masks of this mesh, in place of those around one irregular vertex.
     #[arg(short, long, value_name = "MESH")]

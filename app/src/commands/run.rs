@@ -63,6 +63,8 @@ Examples:
 #[command(after_help = format!("{EXAMPLES}{EXIT_CODES}"))]
 pub struct Arguments {
     /// The program; `-` is stdin.
+    ///
+    /// A name that no file has is that of a program that comes with vv, such as loop.vv.
     pub program: PathBuf,
     /// What is no option and no program: the mesh, where `-i` was forgotten.
     #[arg(hide = true)]

@@ -104,6 +104,22 @@ fn an_include_is_found_beside_its_file_or_among_those_that_ship() {
 }
 
 #[test]
+fn a_program_that_is_no_file_is_the_one_that_comes_with_vv() {
+    let folder = Folder::with(&[]);
+    let said = "note: there is no file sqrt3.vv, so this is the program of that name that comes with vv";
+    folder.check("run sqrt3.vv -i octahedron.obj -n 2 -o a.obj", 0, said);
+    assert_eq!(vertices(&folder.read("a.obj")).len(), 6 + 8 + 24);
+    assert!(folder.check("mask sqrt3.vv --valence 4", 0, said).stdout.contains("at p"));
+    folder.check("check ./sqrt3.vv", 3, "./sqrt3.vv: there is no such file");
+    folder.check("run sqrt4.vv -i octahedron.obj", 3, "sqrt4.vv: there is no such file");
+    // One's own comes first, and what comes with vv includes what comes with vv.
+    fs::write(folder.path("ptt.vv"), "broken").unwrap();
+    folder.check("check sqrt3.vv", 0, said);
+    fs::write(folder.path("sqrt3.vv"), "step { print \"own\"; }\n").unwrap();
+    assert_eq!(folder.check("run sqrt3.vv -i octahedron.obj", 0, "").stdout, "own\n");
+}
+
+#[test]
 fn diagnostics_come_in_three_forms() {
     let folder = Folder::with(&[("p.vv", "void step(mesh& S) {\n  x = 1;\n}\n")]);
     let short = folder.check("check p.vv --diagnostic-format short", 1, "p.vv:2:3: error: ").stderr;
