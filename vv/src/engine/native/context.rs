@@ -62,8 +62,8 @@ pub(super) struct Context {
     pub(super) nothing: [u32; 4],
     /// How many bytes stand before each of the first slots of a ring.
     pub(super) offsets: [u32; 16],
-    /// Lanes behind a slot: 16 that are all zeros, 16 that are all ones. Nobody writes it.
-    pub(super) behind: [u32; 32],
+    /// For each place in a ring, lanes that are all ones from there on. Nobody writes it.
+    pub(super) from: [[u32; 16]; 17],
 }
 
 /// A set whose members compiled code may push.
@@ -168,6 +168,9 @@ impl Layout {
     }
 }
 
+/// Bytes of a row of [`Context::from`].
+pub(super) const FROM_ROW: i32 = 64;
+
 /// Byte offset of a word.
 pub(super) fn byte_offset(word: usize) -> i32 {
     (8 * word) as i32
@@ -206,7 +209,7 @@ offsets! {
     EDIT_LIMIT edit_limit
     GAPS_OR_EDGE_VALUES gaps_or_edge_values
     EDIT_WITHIN edit_within
-    BEHIND behind
+    FROM from
     ASKS_AHEAD asks_ahead
     OLD_HEADS old_heads
     OLD_SLOTS old_slots

@@ -249,7 +249,7 @@ pub(super) fn run(
         (*context).stop = (*run_pointer).fixed.settings.stop.flag().as_ptr();
         (*context).asks_ahead = u64::from((*run_pointer).mesh.vertex_count() >= FAR);
         (*context).offsets = std::array::from_fn(|i| 4 * i as u32);
-        (*context).behind = std::array::from_fn(|i| if i < 16 { 0 } else { u32::MAX });
+        (*context).from = std::array::from_fn(|at| std::array::from_fn(|i| if i < at { 0 } else { u32::MAX }));
         (*context).max_depth = u64::from((*run_pointer).fixed.settings.limits.max_call_depth);
     }
     // SAFETY: `run` lives until the end of this function and is used through this pointer alone until compiled code has

@@ -362,7 +362,7 @@ impl<'p> Translator<'_, 'p> {
         // Lanes from `at` on take what stands behind them.
         for (k, &lane) in (0..).zip(&lanes) {
             let shifted = self.four(&lanes, 4 * i64::from(k) + 1);
-            let from = self.lanes_behind(at, 4 * k + 1);
+            let from = self.lanes_from(at, 4 * k);
             let mut result = self.b.ins().bitselect(from, shifted, lane);
             if let Some(end) = end {
                 // Those behind the ring get back what they hold.

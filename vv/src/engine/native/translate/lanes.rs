@@ -109,12 +109,23 @@ impl Translator<'_, '_> {
             .collect()
     }
 
-    /// Which of the four slots from `first` on stand behind the one that stands so many bytes from the first of all.
+    /// Which of the four slots from `first` on are, or stand behind, the one that stands so many bytes from the first of
+    /// all.
+    pub(super) fn lanes_from(&mut self, at: Value, first: u32) -> Value {
+        self.lanes_of_row(at, 0, first)
+    }
+
+    /// Which of them stand behind it.
     pub(super) fn lanes_behind(&mut self, at: Value, first: u32) -> Value {
-        let base = self.b.ins().isub(self.context, at);
+        self.lanes_of_row(at, 1, first)
+    }
+
+    fn lanes_of_row(&mut self, at: Value, rows_on: i32, first: u32) -> Value {
+        let row = self.b.ins().imul_imm_s(at, i64::from(context::FROM_ROW / 4));
+        let base = self.b.ins().iadd(self.context, row);
         let flags = unaligned(self.regions.context);
-        let behind = context::BEHIND + 4 * (15 + first as i32);
-        let lanes = self.b.ins().load(types::I32X4, flags, base, behind);
+        let offset = context::FROM + rows_on * context::FROM_ROW + 4 * first as i32;
+        let lanes = self.b.ins().load(types::I32X4, flags, base, offset);
         let zero = self.int32(0);
         let zeros = self.b.ins().splat(types::I32X4, zero);
         self.b.ins().icmp(IntCC::SignedLessThan, lanes, zeros)
