@@ -7,7 +7,7 @@ use vv::assist::comment_before;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::ir::{FunctionId, Program};
 use vv::mesh::Mesh;
-use vv::mesh::faces::faces;
+use vv::mesh::faces::degrees;
 use vv::source::FileId;
 use vv::stop::{Stop, Stopped};
 
@@ -38,18 +38,19 @@ impl Claim {
         }
     }
 
-    /// What of a mesh is not as claimed, as a warning. Cost: finding its faces.
+    /// What of a mesh is not as claimed, as a warning. Cost: finding its faces, in no memory of their own.
     ///
     /// # Errors
     /// When stopped.
     pub fn breach(&self, mesh: &Mesh, stop: &Stop) -> Result<Option<Diagnostic>, Stopped> {
         let mut broken = Vec::new();
         if let Some(corners) = self.corners {
-            let faces = faces(mesh, stop)?;
-            let others = faces.iter().filter(|face| face.len() != corners).count();
+            let degrees = degrees(mesh, stop)?.into_pairs();
+            let all: usize = degrees.iter().map(|&(_, faces)| faces).sum();
+            let others: usize = degrees.iter().filter(|&&(n, _)| n != corners).map(|&(_, faces)| faces).sum();
             if others > 0 {
                 let are = if others == 1 { "is" } else { "are" };
-                broken.push(format!("{others} of the {} faces {are} none", faces.len()));
+                broken.push(format!("{others} of the {all} faces {are} none"));
             }
         }
         let others = !broken.is_empty();

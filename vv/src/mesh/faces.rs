@@ -88,6 +88,14 @@ impl Faces {
 #[derive(Default)]
 pub struct Degrees(pub(super) Histogram);
 
+impl Degrees {
+    /// How many faces have each number of corners, ascending.
+    #[must_use]
+    pub fn into_pairs(self) -> Vec<(usize, usize)> {
+        self.0.into_pairs()
+    }
+}
+
 impl From<&Faces> for Degrees {
     fn from(faces: &Faces) -> Self {
         let mut degrees = Histogram::default();
