@@ -161,6 +161,8 @@ pub struct App {
     font_size: f32,
     /// Which windows were open over the panels: dialog, reference, render options.
     over: [bool; 3],
+    /// Whether the pointer has done nothing since one of them was opened.
+    rests: bool,
     /// What had the keys before a dialog opened.
     focus: Option<egui::Id>,
     /// Frames until they get them back, from the dialog's last one on.
@@ -211,6 +213,7 @@ impl App {
             scale: Scale::default(),
             font_size: 0.0,
             over: [false; 3],
+            rests: false,
             focus: None,
             asked: 0,
             held: Vec::new(),
@@ -443,8 +446,12 @@ impl eframe::App for App {
         }
         keys::take_dropped_files(ui.ctx(), &mut commands);
         let over = [self.session.dialog.is_some(), self.session.reference, self.session.render_options];
-        let covered = std::mem::replace(&mut self.over, over) != over || self.session.dialog.is_some();
-        let picture = keys::unpointed(ui, covered, |ui| self.panels(ui, &mut commands));
+        // What opens by a key comes under a pointer that means nothing by it.
+        let opens = std::mem::replace(&mut self.over, over) != over;
+        self.rests = (self.rests || opens) && !keys::stirs(ui.ctx());
+        let ctx = ui.ctx().clone();
+        let covered = opens || self.session.dialog.is_some();
+        let picture = keys::unpointed(&ctx, covered, || self.panels(ui, &mut commands));
         render_options::show(ui.ctx(), picture, &self.session, &mut commands);
         if self.session.reference {
             self.reference.show(ui.ctx(), &mut commands);
@@ -452,7 +459,9 @@ impl eframe::App for App {
         drop::show(ui.ctx());
         if self.session.dialog.is_some() {
             let _span = trace::span("window: dialog");
-            dialogs::show(ui.ctx(), &mut self.session, &mut self.gallery, &mut commands);
+            keys::unpointed(&ctx, self.rests, || {
+                dialogs::show(&ctx, &mut self.session, &mut self.gallery, &mut commands);
+            });
         }
         // What had the keys in a dialog that has just gone is not there any more.
         let settled = self.session.dialog.is_some() || self.asked == 0;

@@ -1,7 +1,7 @@
 //! Keys and dropped files to commands.
 
 use eframe::egui::text_selection::LabelSelectionState;
-use eframe::egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers, Ui};
+use eframe::egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers};
 
 use crate::command::{self, Command, Inspect, ViewAction};
 use crate::navigation::Preset;
@@ -145,16 +145,23 @@ pub fn is_typed(event: &Event) -> bool {
     matches!(event, Event::Key { .. } | Event::Text(_) | Event::Ime(_) | Event::Paste(_) | Event::Copy | Event::Cut)
 }
 
-/// Makes what is covered by something that was opened, as if nothing pointed at it: the tooltip of what the pointer rests on
-/// would stay before what covers it.
-pub fn unpointed<R>(ui: &mut Ui, covered: bool, make: impl FnOnce(&mut Ui) -> R) -> R {
-    if !covered {
-        return make(ui);
+/// Makes something as if nothing pointed at it, if `hidden`: no tooltip opens, and none that is open stays.
+pub fn unpointed<R>(ctx: &Context, hidden: bool, make: impl FnOnce() -> R) -> R {
+    if !hidden {
+        return make();
     }
-    let pointer = ui.input_mut(|i| std::mem::take(&mut i.pointer));
-    let made = make(ui);
-    ui.input_mut(|i| i.pointer = pointer);
+    let pointer = ctx.input_mut(|i| std::mem::take(&mut i.pointer));
+    let made = make();
+    ctx.input_mut(|i| i.pointer = pointer);
     made
+}
+
+/// Whether the pointer does anything.
+pub fn stirs(ctx: &Context) -> bool {
+    let is_of_pointer = |event: &Event| {
+        matches!(event, Event::PointerMoved(_) | Event::PointerButton { .. } | Event::MouseWheel { .. })
+    };
+    ctx.input(|i| i.events.iter().any(is_of_pointer))
 }
 
 /// Opens what was dropped on the window.

@@ -30,7 +30,8 @@ pub fn show(ctx: &Context, session: &Session, commands: &mut Vec<Command>) {
         ui.add_space(8.0);
         let mut preferences = session.preferences;
         let height = (room.y - 170.0).max(120.0);
-        let area = eframe::egui::ScrollArea::vertical().max_height(height).content_margin(super::theme::beside_bar());
+        let area = eframe::egui::ScrollArea::vertical().auto_shrink([false, true]).max_height(height);
+        let area = area.content_margin(super::theme::beside_bar());
         area.show(ui, |ui| {
             if beside {
                 ui.columns(2, |columns| {

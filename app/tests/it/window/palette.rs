@@ -126,6 +126,18 @@ fn a_tooltip_goes_when_a_dialog_opens_over_it() {
     window.run_steps(60);
     assert!(window.query_by_label("apply the rule once").is_none());
     press(&mut window, Key::Escape);
+    // Nor does one open in a dialog that comes under the pointer.
+    let middle = window.get_by_label("Viewport").rect().left_center();
+    window.hover_at(middle);
+    window.run_steps(4);
+    window.state_mut().apply(Command::Gallery);
+    window.run_steps(60);
+    let tips = |window: &Harness<'static, App>| window.query_all_by_label_contains(".vv, on ").count();
+    let before = tips(&window);
+    window.hover_at(middle + egui::vec2(2.0, 0.0));
+    window.run_steps(60);
+    assert_eq!(tips(&window), before + 1);
+    press(&mut window, Key::Escape);
     let away = window.get_by_label("Viewport").rect().center();
     window.hover_at(away);
     window.run_steps(4);
