@@ -76,7 +76,8 @@ fn forget(mesh: &mut Mesh, stop: &Stop) -> Result<Option<Diagnostic>, Stopped> {
         evidence.push(format!("now {}", validate::show_ring(mesh, v)));
     }
     if torn.len() > SHOWN {
-        evidence.push(format!("and {} more rings", torn.len() - SHOWN));
+        let more = torn.len() - SHOWN;
+        evidence.push(format!("and {more} more ring{}", if more == 1 { "" } else { "s" }));
     }
     let (are, their) = if forgotten == 1 { ("is", "its") } else { ("are", "their") };
     let message = format!(

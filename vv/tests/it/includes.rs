@@ -221,6 +221,17 @@ fn a_mesh_is_built_again_from_its_faces_in_any_order() {
 }
 
 #[test]
+fn a_face_for_which_there_is_no_place_is_left_out_and_said() {
+    let text = "step { vertex a, b, c, d, e; triangle(a, b, c); triangle(a, b, d); triangle(b, a, d); \
+                quad(e, b, a, c); add a to S; add b to S; add c to S; add d to S; print a; }";
+    let (mesh, printed) = outcome(&["build"], text, &Mesh::new());
+    let said = |face: &str, at: &str| format!("{face} is left out: an edge at {at} has a face on this side already");
+    assert_eq!(printed, [said("{v1, v2, v4}", "v2"), said("{v5, v2, v1, v3}", "v2"), "v1".to_owned()]);
+    let (faces, gaps) = surface(&mesh);
+    assert_eq!((faces.len(), gaps), (2, vec![1, 1, 1, 1]));
+}
+
+#[test]
 fn a_grid_has_the_squares_that_it_is_asked_for() {
     for (m, n) in [(1, 1), (3, 2), (1, 5), (6, 4)] {
         let text = format!(
