@@ -137,8 +137,10 @@ impl Viewport {
         if style.axes {
             gizmo::show(ui, rect, &camera);
         }
-        if !session.fit && !session.glides() && frame.scene.is_out_of_sight(&camera, &style, size.aspect()) {
-            lost::show(ui, rect, commands);
+        if frame.scene.mesh.vertex_count == 0 {
+            lost::show(ui, rect, "no position is a number that can be drawn", None, commands);
+        } else if !session.fit && !session.glides() && frame.scene.is_out_of_sight(&camera, &style, size.aspect()) {
+            lost::show(ui, rect, "the mesh is out of sight", Some(Command::Fit), commands);
         }
         overlay(ui, rect, session, legend);
     }

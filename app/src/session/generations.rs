@@ -194,10 +194,16 @@ impl Session {
 
     /// Who asks for a step that changes nothing shall not doubt the button.
     fn say_if_idle(&mut self, next: &Frame) {
+        let note_of = |frame: &Frame| {
+            let note = frame.warnings.iter().find(|warning| warning.severity == Severity::Note);
+            note.map(|note| note.message.clone())
+        };
+        let before = self.frame.as_deref().and_then(note_of);
+        // What was said of the generation before is not said of this one.
+        self.notice.take_if(|(_, text, _)| before.as_ref() == Some(text));
         let steps = next.request.generation > self.shown_generation();
-        let note = next.warnings.iter().find(|warning| warning.severity == Severity::Note);
-        if let Some(note) = note.filter(|_| steps) {
-            self.say(Severity::Note, note.message.clone());
+        if let Some(note) = note_of(next).filter(|_| steps) {
+            self.say(Severity::Note, note);
         }
     }
 

@@ -369,7 +369,21 @@ fn a_step_that_changes_nothing_says_so() {
     click(&mut window, "Step");
     assert_eq!(said(&window).as_deref(), Some("the step changed nothing"));
     window.get_by_label_contains("the step changed nothing");
+    // It is not said any longer than it is so.
+    click(&mut window, "Back");
+    assert_eq!(said(&window), None);
     write(&mut window, "void rest(mesh& S) { print(\"looked\"); }\n");
     click(&mut window, "Step");
     assert!(window.query_by_label_contains("the step changed nothing").is_none(), "it was not there for the mesh");
+}
+
+#[test]
+fn positions_that_cannot_be_drawn_are_told_in_place_of_the_mesh() {
+    let mut window = octahedron();
+    write(&mut window, "void boom(mesh& S) { forall v in S v$pos *= 1e100; }\n");
+    let said = "no position is a number that can be drawn";
+    click(&mut window, "Step");
+    assert!(window.query_by_label(said).is_none());
+    click(&mut window, "Step");
+    window.get_by_label(said);
 }
