@@ -504,11 +504,13 @@ impl Session {
         if self.document.program.path.as_deref() == Some(path) {
             self.program_gone = gone;
         }
+        let name = crate::document::file_name(path);
+        let warning = format!("{name} is gone from the disk; what was read of it is still here");
         if gone {
-            let name = crate::document::file_name(path);
-            self.say(Severity::Warning, format!("{name} is gone from the disk; what was read of it is still here"));
+            self.say(Severity::Warning, warning);
             return;
         }
+        self.notice.take_if(|(_, text, _)| *text == warning);
         if matches!(&self.document.mesh, MeshSource::File(mesh) if mesh == path) {
             self.mesh_revision += 1;
             self.ask_now();

@@ -111,6 +111,7 @@ fn a_program_whose_file_is_deleted_stays_and_is_asked_about() {
     // Once it is back, all is well.
     fs::write(bench.path("a.vv"), PROGRAM).unwrap();
     bench.until("it is back", |s| !s.is_unsaved());
+    assert_eq!(bench.session.notice(), None, "it is not gone any more");
 }
 
 #[test]
