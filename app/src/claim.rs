@@ -76,15 +76,30 @@ impl Claim {
     }
 }
 
+/// Words before a kind of mesh that say it is what the rule is given; before what it makes others stand.
+const GIVEN: [&str; 6] = ["of", "for", "from", "on", "any", "all"];
+
 fn read(comment: &str) -> Option<Claim> {
     let text = comment.to_lowercase();
-    let says = |words: &str| text.contains(words);
-    let corners = match (says("triangle mesh"), says("quad mesh")) {
-        (true, false) => Some(3),
-        (false, true) => Some(4),
-        _ => None,
-    };
-    let closed = ["", "triangle ", "quad "].iter().any(|kind| says(&format!("closed {kind}mesh")));
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let (mut faces, mut closed) = (Vec::new(), false);
+    for (i, _) in words.iter().enumerate().filter(|(_, word)| word.starts_with("mesh")) {
+        let corners = match words[..i] {
+            [.., "triangle"] => Some(3),
+            [.., "quad"] => Some(4),
+            _ => None,
+        };
+        let before = &words[..i - usize::from(corners.is_some())];
+        let is_closed = before.last() == Some(&"closed");
+        let before = &before[..before.len() - usize::from(is_closed)];
+        let given = before.last().is_none_or(|word| GIVEN.contains(word) || word.ends_with(['.', ':', ';']));
+        if given && (corners.is_some() || is_closed) {
+            faces.push(corners);
+            closed |= is_closed;
+        }
+    }
+    let corners = *faces.first()?;
+    let corners = corners.filter(|_| faces.iter().all(|&other| other == corners));
     (corners.is_some() || closed).then(|| Claim { by: "the program".to_owned(), corners, closed })
 }
 
@@ -105,11 +120,15 @@ mod tests {
         let rules = "void a(mesh& S) { }\n\n// For closed quad meshes.\nvoid b(mesh& S) { }\n";
         let of = |headline: &str| format!("// {headline}\n\n{rules}");
         let program = Some(("the program", Some(3), false));
-        check(&of("Smooth triangle meshes, closed or open."), "a", program);
+        check(&of("Smooth surfaces from triangle meshes, closed or open."), "a", program);
+        check(&of("Loop 1987. Triangle meshes, closed or open."), "a", program);
         check(&of("Any Triangle\n// mesh."), "a", program);
-        check(&of("Smooth triangle meshes, closed or open."), "b", Some(("`b`", Some(4), true)));
+        check(&of("From triangle meshes."), "b", Some(("`b`", Some(4), true)));
         check(&of("Any closed mesh."), "a", Some(("the program", None, true)));
         check(&of("Any polygons, closed or open."), "a", None);
+        check(&of("Makes any polygons triangle meshes."), "a", None);
+        check(&of("Cuts polygons into a closed triangle mesh."), "a", None);
+        check(&of("A triangle mesh of each. Quad meshes."), "a", Some(("the program", Some(4), false)));
         check(&of("One is for triangle meshes, the other for quad meshes."), "a", None);
         check("// Of triangle meshes.\nstep { }\n", "step", Some(("the program", Some(3), false)));
     }
