@@ -98,7 +98,7 @@ pub const EXHIBITS: &[Exhibit] = exhibits! {
     "catmull-clark-creases" "Catmull–Clark creases" Subdivision Some("cube-creased.obj"), None, 3;
     "colors" "Colours, too" Subdivision None, None, 3;
     "doo-sabin" "Doo–Sabin" Subdivision Some("cube-frame.obj"), None, 1;
-    "quad-triangle" "Triangles and quads" Subdivision Some("pawn.obj"), None, 2;
+    "quad-triangle" "Triangles and quads" Subdivision Some("rhombicuboctahedron.obj"), None, 2;
     "midedge" "Midedge" Subdivision Some("pawn.obj"), None, 2;
     "four-eight" "4–8" Subdivision Some("cube.obj"), None, 5;
     "curves" "Curves" Subdivision None, None, 4;

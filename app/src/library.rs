@@ -68,6 +68,7 @@ pub const MESHES: &[Shipped] = &[
     Shipped { name: "cube.obj", text: include_str!("../../assets/meshes/cube.obj") },
     Shipped { name: "icosahedron.obj", text: include_str!("../../assets/meshes/icosahedron.obj") },
     Shipped { name: "dodecahedron.obj", text: include_str!("../../assets/meshes/dodecahedron.obj") },
+    Shipped { name: "rhombicuboctahedron.obj", text: include_str!("../../assets/meshes/rhombicuboctahedron.obj") },
     Shipped { name: "torus.obj", text: include_str!("../../assets/meshes/torus.obj") },
     Shipped { name: "torus-quads.obj", text: include_str!("../../assets/meshes/torus-quads.obj") },
     Shipped { name: "genus-2.obj", text: include_str!("../../assets/meshes/genus-2.obj") },

@@ -30,6 +30,7 @@ fn assets_are_what_is_made_here() {
     check("octahedron", hull(&octahedron));
     check("icosahedron", hull(&icosahedron));
     check("dodecahedron", hull(&dodecahedron));
+    check("rhombicuboctahedron", hull(&signs(1.0, 1.0, 1.0 + 2f64.sqrt(), true)));
     check("cube-open", triangulated(without_lid(hull(&cube))));
     check("cube-open-quads", without_lid(hull(&cube)));
     check("square-open", triangulated(square()));
