@@ -36,8 +36,8 @@ impl Survey {
     /// Cost: linear, on all threads.
     pub(super) fn new(mesh: &Mesh, members: &Members, stop: &Stop) -> Result<Self, Stopped> {
         if let Members::From(1, _) = members {
-            // Everything that exists is a member. What does not exist, too, is named by a ring and names nothing: where
-            // a ring does that, the entries do not balance.
+            // Everything that exists is a member. What does not exist has no ring that answers: where one names it, the
+            // entries do not balance.
             let survey = Self::sum(in_pieces(mesh, stop, |range| Self::of(mesh, range, |_| true))?);
             if survey.balance == 0 {
                 return Ok(survey);
