@@ -63,6 +63,14 @@ fn remeshing_what_is_smooth_encloses_what_it_did() {
     }
 }
 
+/// What edits beside a crease take, where nothing may move, is given back elsewhere.
+#[test]
+fn remeshing_beside_creases_encloses_what_it_did() {
+    let before = Show::on_mesh("torus.obj", "remesh.vv", &[]);
+    let volume = before.volume();
+    super::assert_near(before.steps(30).volume(), volume);
+}
+
 /// A cube stays a cube, and its corners and edges are where they were.
 #[test]
 fn remeshing_keeps_creases() {
