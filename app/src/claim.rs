@@ -78,12 +78,17 @@ impl Claim {
 
 /// Words before a kind of mesh that say it is what the rule is given; before what it makes others stand.
 const GIVEN: [&str; 6] = ["of", "for", "from", "on", "any", "all"];
+/// Words after a kind of mesh that say the rule is given more than that.
+const MORE: [&str; 4] = ["and", "or", "as", "but"];
+/// Words that deny what comes after them in a sentence.
+const DENIAL: [&str; 5] = ["not", "no", "never", "cannot", "nor"];
 
 fn read(comment: &str) -> Option<Claim> {
     let text = comment.to_lowercase();
     let words: Vec<&str> = text.split_whitespace().collect();
+    let ends_sentence = |word: &&str| word.ends_with(['.', ':', ';']);
     let (mut faces, mut closed) = (Vec::new(), false);
-    for (i, _) in words.iter().enumerate().filter(|(_, word)| word.starts_with("mesh")) {
+    for (i, word) in words.iter().enumerate().filter(|(_, word)| word.starts_with("mesh")) {
         let corners = match words[..i] {
             [.., "triangle"] => Some(3),
             [.., "quad"] => Some(4),
@@ -92,8 +97,18 @@ fn read(comment: &str) -> Option<Claim> {
         let before = &words[..i - usize::from(corners.is_some())];
         let is_closed = before.last() == Some(&"closed");
         let before = &before[..before.len() - usize::from(is_closed)];
-        let given = before.last().is_none_or(|word| GIVEN.contains(word) || word.ends_with(['.', ':', ';']));
-        if given && (corners.is_some() || is_closed) {
+        let given = before.last().is_none_or(|word| GIVEN.contains(word) || ends_sentence(word));
+        if !given || before.iter().rev().take_while(|word| !ends_sentence(word)).any(|word| DENIAL.contains(word)) {
+            continue;
+        }
+        let next = words.get(i + 1).unwrap_or(&"");
+        let more = !word.ends_with(|c: char| c.is_ascii_punctuation()) && MORE.contains(next);
+        let list = word.ends_with(',') && ["triangle", "quad"].contains(next);
+        let any = corners.is_none() && !is_closed && matches!(before.last(), Some(&("any" | "all")));
+        if more || list || any {
+            return None;
+        }
+        if corners.is_some() || is_closed {
             faces.push(corners);
             closed |= is_closed;
         }
@@ -130,6 +145,12 @@ mod tests {
         check(&of("Cuts polygons into a closed triangle mesh."), "a", None);
         check(&of("A triangle mesh of each. Quad meshes."), "a", Some(("the program", Some(4), false)));
         check(&of("One is for triangle meshes, the other for quad meshes."), "a", None);
+        check(&of("For triangle meshes and quad meshes."), "a", None);
+        check(&of("For triangle meshes, quad meshes and others."), "a", None);
+        check(&of("For triangle meshes or any polygons."), "a", None);
+        check(&of("For any mesh, best on triangle meshes."), "a", None);
+        check(&of("Not for triangle meshes."), "a", None);
+        check(&of("Does not stop on closed meshes: for triangle meshes."), "a", program);
         check("// Of triangle meshes.\nstep { }\n", "step", Some(("the program", Some(3), false)));
     }
 }
