@@ -80,6 +80,12 @@ const ODD: &[(&str, &str)] = &[
     ),
 ];
 
+/// Corners with two edges, as models have them: one in the middle of an edge of a tetrahedron, and two beside each other.
+const STRAIGHT: [&str; 2] = [
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\nf 1 5 2 4\nf 2 5 1 3\nf 1 4 3\nf 2 3 4\n",
+    "v 0 0 0\nv 3 0 0\nv 0 3 0\nv 0 0 3\nv 1 0 0\nv 2 0 0\nf 1 5 6 2 4\nf 2 6 5 1 3\nf 1 4 3\nf 2 3 4\n",
+];
+
 fn files(folder: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(assets_folder().join(folder)).unwrap();
     let mut files: Vec<_> = entries.map(|e| e.unwrap().path()).filter(|p| p.is_file()).collect();
@@ -150,7 +156,22 @@ fn every_program_runs_on_every_mesh_it_is_for() {
     }
 }
 
-/// The third column of the manual's table is what the test above runs.
+#[test]
+fn schemes_for_polygons_take_corners_with_two_edges() {
+    for text in STRAIGHT {
+        let (mesh, _) = read(text.as_bytes(), Format::Obj, &ReadOptions::default()).unwrap();
+        let schemes = CLAIMS.iter().filter(|row| row.2 == Class::Polygons && row.0 != "conway.vv");
+        for (file, rule, _) in schemes {
+            let path = assets_folder().join("programs").join(file);
+            let native = Machine::new(compile(file, &std::fs::read_to_string(&path).unwrap()), Engine::Native);
+            let program = native.program();
+            let rule = rule.map_or(program.default_rule(), |rule| program.rule(rule)).unwrap();
+            check(&native, rule, &mesh, file);
+        }
+    }
+}
+
+/// The third column of the manual's table is what is tried above.
 #[test]
 fn the_manual_says_what_each_program_is_for() {
     let manual = include_str!("../../../README.md");
