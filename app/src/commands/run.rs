@@ -1,5 +1,6 @@
 //! `vv run`
 
+mod brought;
 mod cases;
 pub(super) mod checks;
 mod names;
@@ -414,7 +415,9 @@ impl Run<'_> {
             }
             None => (Mesh::new(), Vec::new()),
         };
-        let warnings = [self.warnings.clone(), warnings_of(&found)].concat();
+        let lost = brought::lost(self.machine.program(), &mesh);
+        self.reporter.report(&lost, &self.machine.program().sources);
+        let warnings = [self.warnings.clone(), warnings_of(&found), warnings_of(&lost)].concat();
         Ok(Loaded { mesh, warnings, load_s: loading.elapsed().as_secs_f64() })
     }
 

@@ -68,6 +68,21 @@ fn what_a_file_says_of_vertices_is_inherited_where_the_program_knows_nothing_of_
 }
 
 #[test]
+fn what_a_file_says_and_the_program_cannot_hold_is_warned_of() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               property double heat\nproperty double age\nelement face 1\n\
+               property list uchar int vertex_indices\nelement mesh 1\nproperty double time\nend_header\n\
+               0 0 0 1.5 2\n2 0 0 2 3\n0 2 0 3 4\n3 0 1 2\n0.5\n";
+    let folder = Folder::with(&[("c.ply", ply)]);
+    let own = "vertex { int heat; int age; };\nmesh { bool time; };\nstep { forall p in S p$heat += p$age; }\n";
+    fs::write(folder.path("own.vv"), own).unwrap();
+    let said = "warning: `heat` of vertices is `double` in the mesh file and `int` in the program, which cannot hold it\n\
+                own.vv:1:14\n`double heat;` keeps what the mesh says\n`time` of the mesh is `double`";
+    let run = folder.check("run own.vv -i c.ply --summary json", 0, said);
+    assert_eq!(json(&run.stdout)["warnings"].as_array().unwrap().len(), 2, "2, 3 and 4 are whole: {}", run.stderr);
+}
+
+#[test]
 fn errors_in_the_text_end_before_anything_is_written() {
     let text = "void step(mesh& S) {\n  x = 1;\n  y = 2;\n}\n";
     let folder = Folder::with(&[("p.vv", text)]);
