@@ -57,7 +57,9 @@ impl<'a> Checker<'a> {
         } else {
             match name {
                 "faces" => error.hint("say of which mesh: `forall f in faces S`"),
-                "infinity" | "INFINITY" | "inf" | "INF" | "DBL_MAX" | "Infinity" => error.hint("write `1.0 / 0.0`"),
+                "infinity" | "INFINITY" | "inf" | "INF" | "DBL_MAX" | "Infinity" => {
+                    error.hint("write `1.0 / 0.0`, a `double`; ints have none")
+                }
                 _ => self.suggest_variable(error, name, span, wanted),
             }
         };
@@ -139,6 +141,7 @@ impl<'a> Checker<'a> {
                 "neighbours" | "neighbors" | "adjacent" | "ring" => {
                     error.hint("`forall q in p` walks the neighbours of p")
                 }
+                "infinity" => error.hint("write `1.0 / 0.0`"),
                 "size" | "count" | "len" => error.hint("count in a loop: `int n = 0; forall v in S n += 1;`"),
                 _ => error,
             },

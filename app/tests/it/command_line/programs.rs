@@ -125,7 +125,9 @@ fn a_program_that_is_no_file_is_the_one_that_comes_with_vv() {
     folder.check("run sqrt3.vv -i octahedron.obj -n 2 -o a.obj", 0, said);
     assert_eq!(vertices(&folder.read("a.obj")).len(), 6 + 8 + 24);
     assert!(folder.check("mask sqrt3.vv --valence 4", 0, said).stdout.contains("at p"));
-    folder.check("check ./sqrt3.vv", 3, "./sqrt3.vv: there is no such file");
+    for near in ["./sqrt3.vv", "Sqrt3.VV", "sqrt3"] {
+        folder.check(&format!("check {near}"), 3, &format!("{near}: there is no such file\n`sqrt3.vv` comes with vv"));
+    }
     folder.check("run sqrt4.vv -i octahedron.obj", 3, "sqrt4.vv: there is no such file");
     // One's own comes first, and what comes with vv includes what comes with vv.
     fs::write(folder.path("ptt.vv"), "broken").unwrap();

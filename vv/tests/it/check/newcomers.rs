@@ -111,4 +111,6 @@ fn rings_as_properties_and_values() {
 fn loops_and_numbers_of_other_languages() {
     check_statement("foreach (q in S) { print q; }", "vv loops over sets and rings with `forall`", "`forall p in S`");
     check_statement("double d = infinity; print d;", "`infinity` is not declared", "`1.0 / 0.0`");
+    check_statement("i = inf; print i;", "`inf` is not declared", "ints have none");
+    check_statement("print infinity();", "there is no function `infinity`", "`1.0 / 0.0`");
 }
