@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Scene, Style};
+use super::{Plane, Scene, Style};
 use crate::camera::Camera;
 
 impl Scene {
@@ -25,10 +25,22 @@ impl Scene {
         })
     }
 
-    /// Whether nothing of what `style` shows can lie in the picture: the ball around it is beyond one of its sides.
+    /// Whether nothing of what `style` shows lies in the picture, as all of the mesh is beyond one of its sides, and all of
+    /// the control mesh beyond one. Until [`Scene::is_indexed`] this tells only of balls around them.
     #[must_use]
     pub fn is_out_of_sight(&self, camera: &Camera, style: &Style, aspect: f64) -> bool {
-        let ball = self.bounds(style);
-        camera.sides(aspect).iter().any(|side| side.beyond(ball.center) > ball.radius)
+        let sides = camera.sides(aspect);
+        let Some(indices) = self.index.get() else {
+            let ball = self.bounds(style);
+            return sides.iter().any(|side| side.beyond(ball.center) > ball.radius);
+        };
+        let parts = &[&self.mesh, &self.control][..if style.control { 2 } else { 1 }];
+        parts.iter().zip(indices.iter()).all(|(part, index)| {
+            let beyond = |side: &Plane| {
+                let nearest = index.farthest(part, -side.normal);
+                nearest.is_none_or(|p| side.beyond(self.to_world(p)) > 0.0)
+            };
+            sides.iter().any(beyond)
+        })
     }
 }

@@ -477,6 +477,23 @@ fn a_mesh_that_is_out_of_sight_is_offered() {
 }
 
 #[test]
+fn a_picture_between_the_mesh_and_its_control_mesh_shows_neither() {
+    let mut window = octahedron();
+    write(&mut window, "void aside(mesh& S) { forall v in S v$pos.x += 20; }\n");
+    window.state_mut().apply(Command::Rewind);
+    window.state_mut().apply(Command::Step);
+    inspecting::known(&mut window);
+    view(&mut window, ViewAction::From(Side::Front));
+    window.state_mut().apply(Command::Fit);
+    inspecting::known(&mut window);
+    assert!(window.query_by_label("the mesh is out of sight").is_none());
+    for _ in 0..12 {
+        view(&mut window, ViewAction::Nearer);
+    }
+    window.get_by_label("the mesh is out of sight");
+}
+
+#[test]
 fn render_options_open_beside_a_small_picture() {
     let mut window = octahedron();
     window.set_size(egui::vec2(900.0, 600.0));
