@@ -29,8 +29,7 @@ pub fn inherit(mesh: &mut Mesh, old: usize, properties: &[usize], stop: &Stop) -
     let mut pairs: Vec<(Vertex, Vertex)> = Vec::new();
     for x in mesh.vertices().skip(old) {
         stop.check()?;
-        let named = mesh.ring(x).vertices().filter(|v| v.index() < old && !mesh.ring(*v).contains(Some(x)));
-        pairs.extend(named.map(|v| (x, v)));
+        pairs.extend(mesh.ring(x).vertices().filter(|v| v.index() < old).map(|v| (x, v)));
     }
     while !givers.is_empty() {
         for &v in &givers {
@@ -38,6 +37,7 @@ pub fn inherit(mesh: &mut Mesh, old: usize, properties: &[usize], stop: &Stop) -
             pairs.extend(mesh.ring(v).vertices().filter(|x| !known[x.index()]).map(|x| (x, v)));
         }
         pairs.par_sort_unstable();
+        pairs.dedup(); // most name each other
         givers.clear();
         for pairs in pairs.chunk_by(|a, b| a.0 == b.0) {
             stop.check()?;
