@@ -28,6 +28,26 @@ enum Change {
     Other,
 }
 
+impl Leading {
+    /// Whether the camera is where it was led. Who turns it to see another side, or in another projection, has put it
+    /// nowhere else.
+    fn is_at(&self, camera: &Camera) -> bool {
+        self.to.is_some_and(|to| as_seen(&to, camera) == *camera)
+    }
+
+    /// The camera goes from one place to another to show as much from another side or in another projection.
+    pub(super) fn turn(&mut self, from: &Camera, to: Camera) {
+        if self.is_at(from) {
+            self.to = Some(to);
+        }
+    }
+}
+
+/// The camera at its place as another looks: from the same side, in the same projection.
+fn as_seen(camera: &Camera, like: &Camera) -> Camera {
+    Camera { world_from_view: like.world_from_view, orthographic: like.orthographic, ..*camera }
+}
+
 impl Session {
     /// To be called before another frame is shown.
     pub(super) fn remember_sight(&mut self, next: &Frame) {
@@ -42,8 +62,8 @@ impl Session {
         let scene = &frame.scene;
         let is_whole =
             frame.mesh.vertex_count() > 0 && scene.fits_at_once() && scene.is_whole(&self.aim(), &style, size.aspect());
-        // What came too fast to be looked at was not seen.
-        if is_whole || self.leading.due.is_some() {
+        // What came too fast to be looked at was not seen; what was turned out of the picture was not left on purpose.
+        if is_whole || self.leading.due.is_some() || self.leading.is_at(&self.aim()) {
             self.leading.due = Some(change);
         }
     }
@@ -57,12 +77,13 @@ impl Session {
         let is_whole = shows(&aim);
         let leading = &mut self.leading;
         leading.due = None;
-        if leading.to != Some(aim) {
+        if !leading.is_at(&aim) {
             leading.from.clear();
         }
         let to = if is_whole {
-            let back = leading.from.iter().position(shows).filter(|_| change == Change::Other)?;
-            leading.from.drain(back..).next()?
+            let back = leading.from.iter().position(|way| shows(&as_seen(way, &aim)));
+            let back = back.filter(|_| change == Change::Other)?;
+            as_seen(&leading.from.drain(back..).next()?, &aim)
         } else {
             leading.from.push(aim);
             // Never nearer: what has only gone aside is followed there.

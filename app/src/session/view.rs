@@ -113,9 +113,15 @@ impl Session {
     pub(super) fn change_view(&mut self, action: ViewAction) {
         let (aim, Navigation { turning, up, .. }) = (self.aim(), self.navigation);
         match action {
-            ViewAction::From(side) => self.glide_to(self.still_whole(aim.from_side(side, up))),
+            ViewAction::From(side) => {
+                let camera = self.still_whole(aim.from_side(side, up));
+                self.leading.turn(&aim, camera);
+                self.glide_to(camera);
+            }
             ViewAction::Orthographic => {
-                self.set_camera(self.still_whole(Camera { orthographic: !aim.orthographic, ..aim }));
+                let camera = self.still_whole(Camera { orthographic: !aim.orthographic, ..aim });
+                self.leading.turn(&aim, camera);
+                self.set_camera(camera);
             }
             ViewAction::Turn(toward) => {
                 let by = TURN * toward.vector();

@@ -435,6 +435,30 @@ fn a_mesh_that_grows_out_of_the_picture_takes_the_camera_with_it_and_back() {
 }
 
 #[test]
+fn who_turns_a_mesh_that_grows_is_led_back_on_the_side_he_came_to() {
+    let mut window = octahedron();
+    write(&mut window, GROWS);
+    window.state_mut().apply(Command::Rewind);
+    window.state_mut().apply(Command::Fit);
+    inspecting::known(&mut window);
+    view(&mut window, ViewAction::Farther); // it is whole from all sides
+    for _ in 0..6 {
+        window.state_mut().apply(Command::Step);
+        check_whole(&mut window);
+    }
+    for _ in 0..3 {
+        view(&mut window, ViewAction::Turn(app::command::Toward::Right));
+    }
+    view(&mut window, ViewAction::Orthographic);
+    let far = camera(&window);
+    window.state_mut().apply(Command::Rewind);
+    check_whole(&mut window);
+    let back = camera(&window);
+    assert!(back.distance < far.distance / 4.0, "{} {}", back.distance, far.distance);
+    assert_eq!((back.world_from_view, back.orthographic), (far.world_from_view, true));
+}
+
+#[test]
 fn a_mesh_that_shrinks_is_seen_to_shrink() {
     let mut window = octahedron();
     write(&mut window, PROGRAM);
