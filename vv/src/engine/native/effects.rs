@@ -1,11 +1,13 @@
 //! What functions and statements do, as far as it decides how they are compiled.
 
+use rustc_hash::FxHashSet;
+
 use super::pristine;
 use crate::ir::{
-    Argument, Expr, ExprKind, Function, FunctionId, Item, Local, LocalId, Passing, Place, PrintItem, Program, Ring,
-    Stmt, StmtKind, Type,
+    Argument, Binary, Comparison, Expr, ExprKind, Function, FunctionId, Item, Local, LocalId, Passing, Place,
+    PrintItem, Program, Ring, Stmt, StmtKind, Type,
 };
-use crate::mesh::FRESH_CAPACITY;
+use crate::mesh::{FRESH_CAPACITY, Value};
 
 /// Functions up to this size stand in for their calls.
 const INLINE_SIZE: usize = 100;
@@ -80,7 +82,7 @@ pub(super) struct Facts {
     pub(super) old_reads: OldReads,
     /// Room for a ring when it is first made: as much as a known list makes it need later, and more where rings grow.
     pub(super) fresh_capacity: u32,
-    /// Whether vertices are spliced into rings.
+    /// Whether vertices are spliced into rings, and not only beside gaps.
     pub(super) grows: bool,
     /// Whether sets are assigned: what was in them may lie beside what is new.
     pub(super) replaces: bool,
@@ -392,27 +394,46 @@ fn old_reads(program: &Program) -> OldReads {
     reads
 }
 
-/// [`Facts::fresh_capacity`] and [`Facts::grows`].
+/// [`Facts::fresh_capacity`] and [`Facts::grows`]. What is done only beside gaps is rare: rings at boundaries.
 fn growth(program: &Program) -> (u32, bool) {
     let (mut made, mut least, mut grows) = (0, 4, false);
     for function in &program.functions {
+        let mut rare = FxHashSet::default();
         each(&function.body, &mut |node| {
-            if let Node::Stmt(s) = node {
-                match &s.kind {
-                    StmtKind::Make { items, .. } => made = made.max(items.len() as u32),
-                    // Only rings at boundaries are spliced into beside a gap.
-                    StmtKind::Splice { item, anchor: Item::Vertex(_), ring: Ring::Of { .. }, .. } => {
-                        least = FRESH_CAPACITY;
-                        grows |= matches!(item, Item::Vertex(_));
-                    }
-                    _ => {}
+            let Node::Stmt(s) = node else { return };
+            match &s.kind {
+                StmtKind::If { condition, then, .. } if asks_for_gap(condition) => {
+                    each(then, &mut |node| {
+                        if let Node::Stmt(s) = node {
+                            rare.insert(std::ptr::from_ref(s));
+                        }
+                    });
                 }
+                StmtKind::Make { items, .. } => made = made.max(items.len() as u32),
+                StmtKind::Splice { item, anchor: Item::Vertex(_), ring: Ring::Of { .. }, .. }
+                    if !rare.contains(&std::ptr::from_ref(s)) =>
+                {
+                    least = FRESH_CAPACITY;
+                    grows |= matches!(item, Item::Vertex(_));
+                }
+                _ => {}
             }
         });
     }
     let made = made.min(FRESH_CAPACITY);
     // What is spliced into a ring in a refinement is as much again at most.
     (least.max(if grows { 2 * made } else { made }), grows)
+}
+
+/// Whether it holds only beside gaps: `v == null`, `is null in v`, or one of them and more.
+fn asks_for_gap(condition: &Expr) -> bool {
+    let null = |e: &Expr| matches!(e.kind, ExprKind::Constant(Value::Vertex(None)));
+    match &condition.kind {
+        ExprKind::Binary(Binary::CompareVertex(Comparison::Equal), a, b) => null(a) || null(b),
+        ExprKind::IsInRing(item, _) => matches!(**item, Item::Gap(_)),
+        ExprKind::And(a, b) => asks_for_gap(a) || asks_for_gap(b),
+        _ => false,
+    }
 }
 
 /// A part of a program.

@@ -60,8 +60,8 @@ fn faults_in_sqrt3_are_found() {
     let faults = [
         ("4.0 - 2.0", "4.0 - 3.0"),
         ("/ 3.0", "/ 2.0"),
-        ("splice y after p in x; splice x", "splice y before p in x; splice x"),
-        ("valence `p", "valence p"),
+        ("prevto c in p, q", "nextto c in p, q"),
+        ("forall q in `p sum", "forall q in p sum"),
     ];
     check("sqrt3.vv", "sqrt3", Around::Triangles, |s| published::sqrt3(s, false), &faults);
 }

@@ -104,6 +104,19 @@ fn refinement_multiplies_the_faces() {
     }
 }
 
+/// Of a triangle with more than one edge along a hole none is cut in three.
+#[test]
+fn sqrt3_may_begin_with_the_step_that_trisects() {
+    let scheme = Scheme::changed("sqrt3.vv", "sqrt3", "% 2 == 1", "% 2 == 0");
+    for name in ["square-open.obj", "grid-open.obj", "cube-open.obj", "torus.obj"] {
+        let mesh = Surface::asset(name).mesh();
+        let (before, after) = (count(&mesh), count(&scheme.steps(&mesh, 1)));
+        let of = |s: &Statistics| (s.components, s.boundary_loops, s.euler_characteristic);
+        assert_eq!(of(&after), of(&before), "{name}");
+        assert_eq!(after.face_degrees.iter().map(|d| d.0).collect::<Vec<_>>(), [3], "{name}");
+    }
+}
+
 #[test]
 fn affine_maps_commute_with_schemes() {
     let matrix = DMat3::from_cols(dvec3(1.0, 0.3, -0.2), dvec3(-0.4, 0.8, 0.5), dvec3(0.1, -0.7, 1.2));
