@@ -20,6 +20,13 @@
 //! **Sets and loops.** `forall` walks a set, a ring or the faces of a set as they stood when the loop began. A set
 //! iterates in order of addition.
 //!
+//! **Parallel rounds.** The rounds of a [`StmtKind::ForallSet`] that says so do not depend on one another: they may run in
+//! any order, or at once, and the result is that of running them in turn. A round assigns variables that are declared in
+//! it, and position and properties of its own vertex, that of the loop's variable, which nothing assigns. It makes no
+//! vertices, edits no rings, sets, values of edges and of meshes, makes no old values, prints nothing, draws no random
+//! numbers, and leaves neither the loop nor the function. What rounds assign it reads of another vertex only as it was. All
+//! this holds with the functions that it calls. An error in one round is that of the first in turn that has one.
+//!
 //! **Rings.** The ring of a vertex is asked and edited as [`crate::mesh::Ring`] and [`crate::mesh::Mesh`] tell. A
 //! variable of type `ring` holds a cyclic list of vertices by value, with a start, without gaps; a vertex may stand in
 //! it more than once, then what looks for it finds the first. Its edits follow those of a vertex' ring, except that
@@ -42,6 +49,7 @@
 
 pub mod arithmetic;
 mod expr;
+pub(crate) mod visit;
 
 use std::sync::Arc;
 
@@ -247,6 +255,8 @@ pub enum StmtKind {
     },
     /// `forall v in S`, over the members as they stand now.
     ForallSet {
+        /// The word `parallel`: rounds do not depend on one another, see *Parallel rounds* above.
+        parallel: bool,
         /// The loop's variable, of type vertex.
         local: LocalId,
         /// Of type mesh.

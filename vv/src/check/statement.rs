@@ -452,7 +452,7 @@ impl<'a> Checker<'a> {
     }
 
     fn forall(&mut self, forall: &'a tree::Forall) -> Option<StmtKind> {
-        let tree::Forall { variable, follower, faces, over, from, body } = forall;
+        let tree::Forall { parallel, variable, follower, faces, over, from, body } = forall;
         let domain = match faces {
             Some(_) => self.faces_of(over).map(Walked::Faces),
             None => self.domain(over, None).map(|domain| match domain {
@@ -502,7 +502,7 @@ impl<'a> Checker<'a> {
             }
         }
         Some(match domain {
-            Walked::Set(set) => StmtKind::ForallSet { local, set, body },
+            Walked::Set(set) => StmtKind::ForallSet { parallel: parallel.is_some(), local, set, body },
             Walked::Faces(set) => StmtKind::ForallFaces { local, set, body },
             Walked::Ring(ring) => {
                 StmtKind::ForallRing { local, follower: second, ring, from: from.map(|(_, from)| from), body }

@@ -226,10 +226,12 @@ pub enum StmtKind {
     Print(Vec<Expr>),
 }
 
-/// ``forall variable, follower in faces over from corner, next body``; which of these parts go together the checker
+/// ``parallel forall variable, follower in faces over from corner, next body``; which of these parts go together the checker
 /// says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forall {
+    /// The word `parallel`.
+    pub parallel: Option<Span>,
     /// The loop's variable.
     pub variable: Name,
     /// Follows the variable round a ring.

@@ -9,14 +9,29 @@ pub(super) const RESERVED: &[&str] = &[
 ];
 
 /// Words of the algebra with which statements begin. They are names where no operand follows.
-pub(super) const STATEMENTS: &[&str] =
-    &["forall", "make", "erase", "replace", "splice", "synchronize", "synchronise", "add", "remove", "merge", "print"];
+pub(super) const STATEMENTS: &[&str] = &[
+    "forall",
+    "parallel",
+    "make",
+    "erase",
+    "replace",
+    "splice",
+    "synchronize",
+    "synchronise",
+    "add",
+    "remove",
+    "merge",
+    "print",
+];
 
 /// Words of the algebra that stand before an operand. They are names where none follows.
 pub(super) const PREFIXES: &[&str] = &["nextto", "prevto", "is", "valence", "gaps", "any"];
 
 /// Words of the algebra between operands.
 pub(super) const INFIXES: &[&str] = &["in", "to", "from", "with", "after", "before", "nb_of"];
+
+/// Stands before a `forall` whose rounds do not depend on one another.
+pub(super) const PARALLEL: &str = "parallel";
 
 /// Stands before the set whose faces a `forall` walks.
 pub(super) const FACES: &str = "faces";

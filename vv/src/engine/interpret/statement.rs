@@ -25,7 +25,7 @@ impl<'a> Machine<'a> {
             StmtKind::Loop { condition, body, update, body_first } => {
                 return self.repeat(condition.as_ref(), body, update, *body_first, s.span);
             }
-            StmtKind::ForallSet { local, set, body } => return self.for_set(*local, set, body),
+            StmtKind::ForallSet { local, set, body, .. } => return self.for_set(*local, set, body),
             StmtKind::ForallRing { local, follower, ring, from, body } => {
                 return self.for_ring(*local, *follower, ring, from.as_ref(), body);
             }

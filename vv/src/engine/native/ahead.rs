@@ -7,7 +7,7 @@
 //!
 //! What is said here decides only what is asked for early: nothing that is computed rests on it.
 
-use super::effects::{Node, each};
+use crate::ir::visit::{Node, each};
 use crate::ir::{Argument, Expr, ExprKind, FunctionId, LocalId, Place, Program, Ring, Stmt, StmtKind};
 
 /// So many parts of a program are looked at for one loop, and calls in calls.
@@ -195,7 +195,7 @@ impl Reader<'_> {
 #[cfg(test)]
 mod tests {
     use super::{Ahead, Touched};
-    use crate::engine::native::effects::{Node, each};
+    use crate::ir::visit::{Node, each};
     use crate::ir::{ExprKind, Ring, StmtKind};
 
     /// What the first loop over a set or over faces touches.

@@ -1,6 +1,7 @@
 //! Where it is sure that nothing was written to the mesh yet: what is made old there is the mesh as the run found it.
 
-use super::effects::{Node, Order, each_in};
+use super::effects::Order;
+use crate::ir::visit::{Node, each_in};
 use crate::ir::{Argument, Expr, ExprKind, FunctionId, Program, Stmt, StmtKind};
 
 /// Which functions begin with the mesh as the run found it, wherever they are called: rules that no function calls, and

@@ -18,6 +18,7 @@ impl Parser<'_> {
         let next = self.kind_at(start + 1);
         let applies = match word {
             "forall" => self.operand_at(start + 1) || next == Kind::Word,
+            words::PARALLEL => self.word_at(start + 1) == "forall",
             "make" => next == Kind::OpenBrace || self.operand_at(start + 1) && next != Kind::OpenParen,
             "print" => {
                 self.operand_at(start + 1) || matches!(next, Kind::Minus | Kind::Not | Kind::Plus | Kind::Semicolon)
@@ -37,7 +38,7 @@ impl Parser<'_> {
         if !applies {
             return None;
         }
-        if word == "forall" {
+        if matches!(word, "forall" | words::PARALLEL) {
             return Some(self.forall(false));
         }
         self.bump_as(Role::Algebra);

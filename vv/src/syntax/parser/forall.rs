@@ -10,6 +10,10 @@ use crate::source::Span;
 impl Parser<'_> {
     /// ``forall q in `p …``; `lenient`: what C++ has instead was reported already.
     pub(super) fn forall(&mut self, lenient: bool) -> StmtKind {
+        let parallel = (!lenient && self.word_at(self.at) == words::PARALLEL).then(|| self.here());
+        if parallel.is_some() {
+            self.bump_as(Role::Algebra);
+        }
         self.bump_as(Role::Algebra);
         let open = self.at;
         let mut parentheses = self.eat(Kind::OpenParen);
@@ -38,7 +42,7 @@ impl Parser<'_> {
         }
         self.recover_header();
         let body = *self.body("the loop");
-        StmtKind::Forall(Box::new(Forall { variable, follower, faces, over, from, body }))
+        StmtKind::Forall(Box::new(Forall { parallel, variable, follower, faces, over, from, body }))
     }
 
     fn loop_variable(&mut self, lenient: bool) -> Name {

@@ -86,7 +86,10 @@ pub fn stmt(s: &Stmt) -> String {
             let from = f.from.as_ref().map(|f| list("from", std::iter::once(&f.corner).chain(&f.next).map(expr)));
             let follower = f.follower.as_ref().map(|f| f.text.clone());
             let head = std::iter::once(f.variable.text.clone()).chain(follower);
-            list("forall", head.chain([over]).chain(from).chain([stmt(&f.body)]))
+            list(
+                if f.parallel.is_some() { "parallel-forall" } else { "forall" },
+                head.chain([over]).chain(from).chain([stmt(&f.body)]),
+            )
         }
         StmtKind::Break => "(break)".to_owned(),
         StmtKind::Continue => "(continue)".to_owned(),

@@ -51,7 +51,7 @@ impl Printer<'_> {
                 let word = if *body_first { "do-while" } else { "while" };
                 format!("{word} {condition} update [{}] {{ {} }}", update.join(", "), self.statements(body))
             }
-            StmtKind::ForallSet { local: l, set, body } => {
+            StmtKind::ForallSet { local: l, set, body, .. } => {
                 format!("forall {} in set {} {{ {} }}", local(l), self.expr(set), self.statements(body))
             }
             StmtKind::ForallRing { local: l, follower, ring, from, body } => {

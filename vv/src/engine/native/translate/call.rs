@@ -7,7 +7,8 @@ use super::known::Bounds;
 use super::{Frame, Orbit, Storage, Symbol, Translated, Translator, Val, clif_types, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
-use crate::engine::native::effects::{Keeping, Node, each};
+use crate::engine::native::effects::Keeping;
+use crate::ir::visit::{Node, each};
 use crate::ir::{Argument, ExprKind, Function, FunctionId, Stmt, StmtKind, Type};
 use crate::source::Span;
 

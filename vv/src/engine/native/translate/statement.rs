@@ -51,7 +51,7 @@ impl<'p> Translator<'_, 'p> {
             StmtKind::Loop { condition, body, update, body_first } => {
                 return self.repeat(condition.as_ref(), body, update, *body_first, s.span);
             }
-            StmtKind::ForallSet { local, set, body } => {
+            StmtKind::ForallSet { local, set, body, .. } => {
                 self.for_set(*local, set, body)?;
             }
             StmtKind::ForallRing { local, follower, ring, from, body } => {

@@ -9,7 +9,8 @@ use super::{Loop, Orbit, Storage, Symbol, Translated, Translator, Val, Walk, wro
 use crate::engine::native::Mutation;
 use crate::engine::native::ahead::{Ahead, Touched};
 use crate::engine::native::context;
-use crate::engine::native::effects::{Effects, Node, each, each_in};
+use crate::engine::native::effects::Effects;
+use crate::ir::visit::{Node, each, each_in};
 use crate::ir::{Expr, ExprKind, From, LocalId, Place, Ring, Stmt, StmtKind, Type};
 use crate::source::Span;
 
