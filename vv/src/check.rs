@@ -7,6 +7,7 @@
 //!   operator   what operators take and conversions give
 //!   constant   values of file scope
 //!   effects    what calls what, and who may read old values
+//!   parallel   rounds that would depend on one another
 //!   suggest    names that may have been meant
 //! ```
 //!
@@ -19,6 +20,7 @@ mod declare;
 mod effects;
 mod expression;
 mod operator;
+mod parallel;
 mod place;
 mod statement;
 mod suggest;
@@ -49,6 +51,7 @@ pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)]) -> (Program, Vec<Di
     checker.declare_globals(files);
     let functions = checker.define_functions();
     checker.look_at_calls();
+    checker.look_at_parallel_loops(&functions);
     checker.warn_of_copied_mesh();
     let program = Program {
         rules: checker.rules.clone(),

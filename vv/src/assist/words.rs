@@ -66,6 +66,12 @@ pub const WORDS: &[Word] = &[
         "forall v in S    forall x in v",
         "for each member of a set, each neighbour in a ring, as they stand when the loop begins",
     ),
+    statement(
+        "parallel",
+        "parallel forall v in S",
+        "rounds that do not depend on one another: each changes values of its own v, and reads of others what no round \
+         changes, or what it was; they may run at once",
+    ),
     statement("make", "make {a, b, c} nb_of v;", "gives v this ring, counter-clockwise; null in it is a gap"),
     statement("erase", "erase x from v;", "takes x out of the ring of v; x keeps v"),
     statement("replace", "replace a with x in v;", "puts x in the place of a in the ring of v"),

@@ -484,6 +484,12 @@ impl<'a> Checker<'a> {
             None => None,
         };
         let domain = domain?;
+        if let Some(span) = parallel
+            && !matches!(domain, Walked::Set(_))
+        {
+            let error = Diagnostic::error(*span, "parallel rounds are those over the vertices of a mesh");
+            return self.fail(error.hint("leave `parallel` out here, and put it before a `forall` round about"));
+        }
         if !matches!(domain, Walked::Ring(_)) {
             let set = self.text(over.span);
             let walked = if faces.is_some() { "faces" } else { "the members" };
@@ -535,6 +541,22 @@ enum Walked {
     Ring(Ring),
 }
 
+/// The first statement that leaves the loop around it, or the function.
+pub(super) fn leaving(body: &[Stmt]) -> Option<&Stmt> {
+    with_stack(|| {
+        body.iter().find_map(|s| match &s.kind {
+            StmtKind::Break | StmtKind::Return(_) => Some(s),
+            StmtKind::Block(inner) => leaving(inner),
+            StmtKind::If { then, otherwise, .. } => leaving(then).or_else(|| leaving(otherwise)),
+            StmtKind::Loop { body, .. }
+            | StmtKind::ForallSet { body, .. }
+            | StmtKind::ForallRing { body, .. }
+            | StmtKind::ForallFaces { body, .. } => returning(body),
+            _ => None,
+        })
+    })
+}
+
 /// What a loop's body does to the loop.
 #[derive(Default)]
 struct Leaves {
@@ -565,16 +587,21 @@ fn leaves(body: &[Stmt]) -> bool {
 }
 
 fn returns(body: &[Stmt]) -> bool {
+    returning(body).is_some()
+}
+
+/// The first `return`.
+fn returning(body: &[Stmt]) -> Option<&Stmt> {
     with_stack(|| {
-        body.iter().any(|s| match &s.kind {
-            StmtKind::Return(_) => true,
+        body.iter().find_map(|s| match &s.kind {
+            StmtKind::Return(_) => Some(s),
             StmtKind::Block(body)
             | StmtKind::Loop { body, .. }
             | StmtKind::ForallSet { body, .. }
             | StmtKind::ForallRing { body, .. }
-            | StmtKind::ForallFaces { body, .. } => returns(body),
-            StmtKind::If { then, otherwise, .. } => returns(then) || returns(otherwise),
-            _ => false,
+            | StmtKind::ForallFaces { body, .. } => returning(body),
+            StmtKind::If { then, otherwise, .. } => returning(then).or_else(|| returning(otherwise)),
+            _ => None,
         })
     })
 }

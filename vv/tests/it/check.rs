@@ -8,6 +8,7 @@ mod messages;
 mod mutations;
 mod names;
 mod newcomers;
+mod parallel;
 mod rings;
 mod vain;
 
