@@ -436,3 +436,28 @@ fn asks_for_gap(condition: &Expr) -> bool {
         _ => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #[track_caller]
+    fn check(statement: &str, grows: bool) {
+        let text =
+            format!("void step(mesh& S) {{ forall p in S forall q in p {{ vertex r = nextto q in p; {statement} }} }}");
+        let program = crate::compile("test.vv", &text, &mut |_, _| Err(String::new())).program.unwrap();
+        assert_eq!(super::growth(&program).1, grows, "{statement}");
+    }
+
+    #[test]
+    fn rings_grow_where_vertices_are_spliced_and_not_only_beside_gaps() {
+        check("splice r after q in p;", true);
+        check("erase q from p;", false);
+        check("splice null after q in p;", false);
+        check("splice r after null in p;", false);
+        check("if (r == null) splice q before p in q;", false);
+        check("if (is null in p) forall x in q splice p after x in q;", false);
+        check("if (q < p && null == r) { splice q before p in q; }", false);
+        check("if (r != null) splice r after q in p;", true);
+        check("if (r == null) ; else splice r after q in p;", true);
+        check("if (r == null) splice q before p in q; splice r after q in p;", true);
+    }
+}

@@ -18,7 +18,9 @@ impl Parser<'_> {
         let next = self.kind_at(start + 1);
         let applies = match word {
             "forall" => self.operand_at(start + 1) || next == Kind::Word,
-            words::PARALLEL => self.word_at(start + 1) == "forall",
+            words::PARALLEL => {
+                matches!(self.word_at(start + 1), "forall" | "for" | "foreach") || self.word_at(start + 2) == "in"
+            }
             "make" => next == Kind::OpenBrace || self.operand_at(start + 1) && next != Kind::OpenParen,
             "print" => {
                 self.operand_at(start + 1) || matches!(next, Kind::Minus | Kind::Not | Kind::Plus | Kind::Semicolon)
@@ -38,8 +40,10 @@ impl Parser<'_> {
         if !applies {
             return None;
         }
-        if matches!(word, "forall" | words::PARALLEL) {
-            return Some(self.forall(false));
+        match word {
+            "forall" => return Some(self.forall(None, false)),
+            words::PARALLEL => return Some(self.parallel()),
+            _ => {}
         }
         self.bump_as(Role::Algebra);
         let kind = match word {

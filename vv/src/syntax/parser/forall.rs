@@ -8,13 +8,46 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 
 impl Parser<'_> {
-    /// ``forall q in `p …``; `lenient`: what C++ has instead was reported already.
-    pub(super) fn forall(&mut self, lenient: bool) -> StmtKind {
-        let parallel = (!lenient && self.word_at(self.at) == words::PARALLEL).then(|| self.here());
-        if parallel.is_some() {
+    /// `parallel forall p in S …`
+    pub(super) fn parallel(&mut self) -> StmtKind {
+        let span = self.here();
+        self.bump_as(Role::Algebra);
+        let next = self.here();
+        let error = Diagnostic::error(span, "only the rounds of a `forall` can be parallel");
+        match self.word() {
+            "forall" => return self.forall(Some(span), false),
+            "for" | "foreach" if self.kind_at(self.at + 1) != Kind::OpenParen => {
+                self.mend(error.fix("write `parallel forall p in S`", next, "forall"));
+            }
+            "for" | "foreach" => {
+                self.mend(error.hint("write `parallel forall p in S { … }`"));
+                return StmtKind::Empty;
+            }
+            _ => {
+                let before = Span { end: next.start, ..next };
+                self.mend(error.fix("write `parallel forall p in S`", before, "forall "));
+                return self.forall_of(Some(span), true);
+            }
+        }
+        self.forall(Some(span), true)
+    }
+
+    /// ``forall q in `p …``; `lenient`: what stands there instead was reported already.
+    pub(super) fn forall(&mut self, parallel: Option<Span>, lenient: bool) -> StmtKind {
+        self.bump_as(Role::Algebra);
+        self.forall_of(parallel, lenient)
+    }
+
+    /// What follows the word.
+    fn forall_of(&mut self, parallel: Option<Span>, lenient: bool) -> StmtKind {
+        if self.word() == words::PARALLEL
+            && self.kind_at(self.at + 1) == Kind::Word
+            && self.word_at(self.at + 1) != "in"
+        {
+            let error = Diagnostic::error(self.here(), "`parallel` stands before `forall`");
+            self.mend(error.hint("write `parallel forall p in S { … }`"));
             self.bump_as(Role::Algebra);
         }
-        self.bump_as(Role::Algebra);
         let open = self.at;
         let mut parentheses = self.eat(Kind::OpenParen);
         if parentheses && !lenient {

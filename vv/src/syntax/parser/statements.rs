@@ -208,7 +208,7 @@ impl Parser<'_> {
             let span = self.here();
             let message = "vv loops over sets and rings with `forall`";
             self.mend(Diagnostic::error(span, message).fix("write `forall p in S`", span, "forall"));
-            return self.forall(true);
+            return self.forall(None, true);
         }
         self.bump();
         if !self.eat(Kind::OpenParen) {

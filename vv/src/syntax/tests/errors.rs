@@ -110,6 +110,9 @@ fn hints_carry_the_edit_that_mends() {
     check_fix("x = nextot q in p;", "x = nextto q in p;");
     check_fix("forll p in S { }", "forall p in S { }");
     check_fix("forall vertex p in S { }", "forall p in S { }");
+    check_fix("parallel for p in S { }", "parallel forall p in S { }");
+    check_fix("parallel foreach p in S { }", "parallel forall p in S { }");
+    check_fix("parallel p in S { }", "parallel forall p in S { }");
     check_fix("if (a = b) c;", "if (a == b) c;");
     check_fix("if (a); { b; }", "if (a) { b; }");
     check_fix("double x == 3;", "double x = 3;");
