@@ -16,6 +16,7 @@
 mod ahead;
 mod context;
 mod effects;
+mod parallel;
 mod prefetch;
 mod pristine;
 mod run;
@@ -71,13 +72,13 @@ macro_rules! mutations {
 }
 
 mutations! {
-    AddStepByTwo AddsNoMember AndIsOr AnyIsLast AppendsNothing AssignsNoRing AssignsNoSet BeginsAtTheStart BoolIsMinusOne BreakIsContinue CallsWithZeros
+    AddStepByTwo AddsNoMember AndIsOr AnyIsLast AppendsNothing AssignsNoRing AssignsNoSet BeginsAtTheStart BoolIsMinusOne BreakIsContinue CallsWithZeros CapturesZeros
     ComparesBoolsInverted ComparesDoublesInverted ComparesIntsInverted ComparesVecsByX ComparesVerticesInverted
     ConditionalIsSwapped CreatesWithoutDefaults CrossIsNegated DifferenceIsSwapped DividesIntsByOne DotForgetsZ
     DoubleToIntRounds EditsMoveNothing EditsNoRing ErasesNothing FollowsItself ForgetsWhatCallsPut ForgetsWhatLoopsPut ForgetsWhatWasPut ForgetsGapsOfValence ForgetsTheSecondFace IntSumIsDifference IntToDoubleUnsigned IgnoresGaps IgnoresRoom IsInRingInverted
     IsInSetInverted LoopsSkipTheSecond MakesNoRing MakesReversed MemoIsStale MergesNothing MinIsMax NegatesNothing NextIsPrevious
     NotDoesNothing OldIsAsItCame OldPositionIsNew OldRingIsNew PrintsNoText ProductIsSum QuotientIsProduct RemovesNothing
-    ReplacesNothing ReturnsEarlier SmallerIsLarger SplicesOnTheOtherSide StandsBesideItself StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
+    ReplacesNothing ReturnsEarlier RoundsLeaveOutTheLast RoundsSkipTheFirst SmallerIsLarger SplicesOnTheOtherSide StandsBesideItself StandsWhereItStood StoresNoEdgeValue StoresNoMeshValue StoresNoY
 }
 
 /// A compiled program.
@@ -126,6 +127,8 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
         functions: rustc_hash::FxHashMap::default(),
         symbols: rustc_hash::FxHashMap::default(),
         rare: rustc_hash::FxHashMap::default(),
+        rounds: 0,
+        apart: Vec::new(),
         mutation,
     };
     for &symbol in Symbol::ALL {
@@ -166,6 +169,16 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
     let b = FunctionBuilder::new(&mut compiler.func, &mut builder);
     Translator::new(b, module, &mut unit, "globals").globals()?;
     define(module, globals, &mut compiler)?;
+    let mut rounds = Vec::new();
+    while let Some(apart) = translate::next_rounds(&mut unit) {
+        let (id, name) = (apart.id, apart.name().to_owned());
+        compiler.func.signature = translate::signature_of_rounds(module.make_signature());
+        compiler.func.name = UserFuncName::user(0, id.as_u32());
+        let b = FunctionBuilder::new(&mut compiler.func, &mut builder);
+        let is_apart = Translator::new(b, module, &mut unit, &name).rounds(apart)?;
+        define(module, id, &mut compiler)?;
+        rounds.push((id, is_apart));
+    }
     for symbol in Symbol::ALL {
         let Some((&id, &callee)) = unit.rare.get(symbol).zip(unit.symbols.get(symbol)) else { continue };
         compiler.func.name = UserFuncName::user(0, id.as_u32());
@@ -176,7 +189,7 @@ fn compile_here(program: &Program, mutation: Mutation) -> Result<Native, Refused
     let entries = roots.iter().filter_map(|id| Some((*id, *unit.functions.get(id)?))).collect::<Vec<_>>();
     let Unit { facts, layout, sites, texts, memos, .. } = unit;
     Ok(Native {
-        code: Executable::new(owned, globals, &entries),
+        code: Executable::new(owned, globals, &entries, &rounds),
         layout,
         creates: facts.creates(),
         grows: facts.grows,

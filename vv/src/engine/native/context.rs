@@ -14,6 +14,8 @@ pub(super) struct Context {
     pub(super) run: *mut u8,
     /// Not zero once a stop was requested.
     pub(super) stop: *const u8,
+    /// Not zero once another thread gave up the rounds of the loop that both are in.
+    pub(super) over: *const u8,
     /// Below this address a function may not begin.
     pub(super) stack_limit: usize,
     /// Calls open, and how many may be.
@@ -195,6 +197,7 @@ macro_rules! offsets {
 
 offsets! {
     STOP stop
+    OVER over
     STACK_LIMIT stack_limit
     DEPTH depth
     MAX_DEPTH max_depth

@@ -74,6 +74,8 @@ pub(super) struct FunctionFacts {
     pub(super) reached: bool,
     /// Begins with the mesh as the run found it.
     pub(super) pristine: bool,
+    /// Is called from rounds of a parallel loop, or from a function that is.
+    pub(super) in_parallel: bool,
     pub(super) keeping: Vec<Keeping>,
 }
 
@@ -132,13 +134,8 @@ impl Facts {
                 && !matches!(function.returns, Type::Mesh | Type::Ring);
         }
         let roots = program.rules.iter().chain(&program.start).map(|f| f.0 as usize);
-        let mut open: Vec<usize> = roots.chain(own_of_globals(program).calls).collect();
-        let mut reached = vec![false; n];
-        while let Some(i) = open.pop() {
-            if i < n && !std::mem::replace(&mut reached[i], true) {
-                open.extend(&own[i].calls);
-            }
-        }
+        let reached = reached_from(roots.chain(own_of_globals(program).calls).collect(), &own);
+        let in_parallel = reached_from(calls_in_parallel(program), &own);
         let functions = (0..n)
             .map(|i| FunctionFacts {
                 effects: effects[i],
@@ -146,6 +143,7 @@ impl Facts {
                 inline_depth: inline_depth[i],
                 reached: reached[i],
                 pristine: pristine[i],
+                in_parallel: in_parallel[i],
                 keeping: keeping(&program.functions[i], &inline, effects[i]),
             })
             .collect();
@@ -178,6 +176,30 @@ impl Facts {
         let called = own.calls.iter().filter_map(|&c| self.functions.get(c));
         called.fold(own.effects, |e, f| e.join(f.effects))
     }
+}
+
+/// These functions, and those that they call.
+fn reached_from(mut open: Vec<usize>, own: &[Own]) -> Vec<bool> {
+    let mut reached = vec![false; own.len()];
+    while let Some(i) = open.pop() {
+        if i < own.len() && !std::mem::replace(&mut reached[i], true) {
+            open.extend(&own[i].calls);
+        }
+    }
+    reached
+}
+
+/// Functions that rounds of parallel loops call.
+fn calls_in_parallel(program: &Program) -> Vec<usize> {
+    let mut calls = Vec::new();
+    for function in &program.functions {
+        each(&function.body, &mut |node| {
+            if let Node::Stmt(Stmt { kind: StmtKind::ForallSet { parallel: true, body, .. }, .. }) = node {
+                calls.extend(Own::of(body).calls);
+            }
+        });
+    }
+    calls
 }
 
 /// Size and effects of a function without those it calls.

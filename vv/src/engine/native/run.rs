@@ -23,6 +23,12 @@
 //!   read up to [`CORNERS_AHEAD`](super::context::CORNERS_AHEAD) behind the last, where there are so many. The asking itself
 //!   is a prefetch, which reads nothing and takes any address.
 //! - The native stack is bounded: every compiled function that is called asks whether there is room left.
+//! - Threads that do parts of a parallel loop ([`parallel`]) have a context each, with words and a stack limit of its own; all
+//!   else that it leads to they share. Compiled code stores there only to its context, its frames, and to values of the
+//!   vertex of the round, of which a set has each once: that no round stores elsewhere, or reads of others what rounds
+//!   store, is found as it is translated ([`super::parallel`]), or one thread does them all. The runtime only reads, rings,
+//!   old and edge values, sets ([`reading`]), and never a column that rounds may store to; what would change the run is
+//!   refused ([`is_part`]). The thread that began the loop waits, and holds no reference to the run.
 #![expect(unsafe_code, reason = "compiled code and what it shares with the runtime; the argument stands above")]
 
 mod builtins;
@@ -30,6 +36,7 @@ mod edges;
 mod keep;
 mod lists;
 mod memory;
+mod parallel;
 mod print;
 mod rings;
 mod sets;
@@ -53,6 +60,7 @@ use crate::mesh::{Mesh, Value, Values, Vertex, VertexSet};
 
 pub use keep::keep_freed_memory;
 use lists::List;
+use parallel::{Rounds, is_part};
 pub(super) use print::type_number;
 pub(super) use symbols::{Symbol, symbols};
 
@@ -105,11 +113,18 @@ pub(super) struct Executable {
     _module: Mutex<Owned>,
     globals: Entry,
     rules: Vec<(FunctionId, Entry)>,
+    rounds: Vec<Rounds>,
 }
 
 impl Executable {
-    /// Of a module whose definitions are final, the function that computes the globals, and those of rules.
-    pub(super) fn new(module: Owned, globals: FuncId, rules: &[(FunctionId, FuncId)]) -> Self {
+    /// Of a module whose definitions are final, the function that computes the globals, those of rules, and those that are
+    /// rounds of parallel loops, with whether many threads may do them at once.
+    pub(super) fn new(
+        module: Owned,
+        globals: FuncId,
+        rules: &[(FunctionId, FuncId)],
+        rounds: &[(FuncId, bool)],
+    ) -> Self {
         let entry = |id| {
             // SAFETY: these functions were compiled with the signature of `Entry`: the checker lets only functions of
             // one mesh be rules. Their code stays until `self` is dropped, and calls go through `run`, which borrows it.
@@ -117,7 +132,18 @@ impl Executable {
         };
         let globals = entry(globals);
         let rules = rules.iter().map(|&(function, id)| (function, entry(id))).collect();
-        Self { _module: Mutex::new(module), globals, rules }
+        let rounds = rounds.iter().map(|&(id, apart)| {
+            // SAFETY: as above, with the signature of rounds.
+            unsafe { Rounds::new(module.0.get_finalized_function(id), apart) }
+        });
+        let rounds = rounds.collect();
+        Self { _module: Mutex::new(module), globals, rules, rounds }
+    }
+
+    /// Of the rounds of parallel loops, in order: whether many threads may do them.
+    #[cfg(test)]
+    pub(super) fn rounds(&self) -> impl Iterator<Item = bool> {
+        self.rounds.iter().map(|r| r.apart)
     }
 }
 
@@ -150,6 +176,7 @@ pub(super) struct Fixed<'a> {
 /// The state of a run that compiled code sees only through the [`Context`].
 pub(super) struct Run<'a> {
     fixed: Fixed<'a>,
+    rounds: &'a [Rounds],
     output: &'a mut dyn Output,
     context: *mut Context,
     mesh: Mesh,
@@ -236,6 +263,7 @@ pub(super) fn run(
         calls: Vec::new(),
         output,
         fixed,
+        rounds: &code.rounds,
     };
     run.fill_memos();
     if !run.own() || !run.give_parameters() {
@@ -247,6 +275,7 @@ pub(super) fn run(
         (*context).run = run_pointer.cast();
         (*context).this = context;
         (*context).stop = (*run_pointer).fixed.settings.stop.flag().as_ptr();
+        (*context).over = (&raw const (*context).nothing).cast();
         (*context).asks_ahead = u64::from((*run_pointer).mesh.vertex_count() >= FAR);
         (*context).offsets = std::array::from_fn(|i| 4 * i as u32);
         (*context).from = std::array::from_fn(|at| std::array::from_fn(|i| if i < at { 0 } else { u32::MAX }));
@@ -347,17 +376,43 @@ fn guard<T>(context: *mut Context, otherwise: T, work: impl FnOnce(&mut Run<'_>)
     })
 }
 
+/// As [`guard`], for work that changes nothing: many threads may do it at once.
+fn reading<T>(context: *mut Context, otherwise: T, work: impl FnOnce(&Run<'_>) -> Option<T>) -> T {
+    // While threads do parts of a loop the arrays are as they were taken from compiled code when it began.
+    if is_part(context) { looking(context, otherwise, work) } else { guard(context, otherwise, |run| work(run)) }
+}
+
+/// As [`reading`], for work that looks at no array that compiled code may have made longer.
+fn looking<T>(context: *mut Context, otherwise: T, work: impl FnOnce(&Run<'_>) -> Option<T>) -> T {
+    // SAFETY: the run is alive, and nobody borrows it but to read while compiled code runs.
+    let run = unsafe { &*(*context).run.cast::<Run<'_>>() };
+    quiet(otherwise, || work(run))
+}
+
+/// Work that needs no run. `None` and a panic are `otherwise`.
+fn quiet<T>(otherwise: T, work: impl FnOnce() -> Option<T>) -> T {
+    catch_unwind(AssertUnwindSafe(work)).ok().flatten().unwrap_or(otherwise)
+}
+
 /// As [`guard`], for work that leaves the arrays alone.
 fn light<T>(context: *mut Context, otherwise: T, work: impl FnOnce(&mut Run<'_>) -> Option<T>) -> T {
+    if is_part(context) {
+        return otherwise;
+    }
     // SAFETY: compiled code passes the context it was given, whose run is alive and not borrowed while it runs.
     let run = unsafe { &mut *(*context).run.cast::<Run<'_>>() };
-    catch_unwind(AssertUnwindSafe(|| work(run))).ok().flatten().unwrap_or(otherwise)
+    quiet(otherwise, || work(run))
 }
 
 /// The words through which operands and results go.
 fn value_words<'a>(run: &mut Run<'_>) -> &'a mut [u64; 12] {
+    words_in(run.context)
+}
+
+/// As [`value_words`], of the context that a runtime function was given.
+fn words_in<'a>(context: *mut Context) -> &'a mut [u64; 12] {
     // SAFETY: the context outlives the work of a runtime function, and nothing else refers to its words meanwhile.
-    unsafe { &mut (*run.context).value }
+    unsafe { &mut (*context).value }
 }
 
 /// Notes the site of a call that is being left because the run was stopped in it.

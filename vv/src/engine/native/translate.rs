@@ -15,6 +15,7 @@ mod known;
 mod lanes;
 mod list;
 mod make;
+mod parallel;
 mod place;
 mod rare;
 mod ring;
@@ -38,6 +39,7 @@ use super::Mutation;
 use super::ahead::Touched;
 use super::context::{self, Layout, Memo, status};
 use super::effects::{Facts, Keeping};
+use super::parallel::Seen;
 use super::run::Symbol;
 use crate::ir::{Function, FunctionId, Passing, Program, Type};
 use crate::mesh;
@@ -45,6 +47,7 @@ use crate::source::Span;
 
 pub(super) use ahead::PREFETCH;
 use known::{Bounds, Known};
+pub(super) use parallel::{Apart, next as next_rounds, signature as signature_of_rounds};
 pub(super) use rare::between;
 
 /// Why a program is left to the interpreter.
@@ -76,6 +79,9 @@ pub(super) struct Unit<'p> {
     pub(super) symbols: FxHashMap<Symbol, FuncId>,
     /// What stands before runtime functions where they are called rarely, see [`rare`].
     pub(super) rare: FxHashMap<Symbol, FuncId>,
+    /// How many parallel loops have rounds that are a function, and those that are still to be translated, in order.
+    pub(super) rounds: u32,
+    pub(super) apart: Vec<Apart<'p>>,
     /// An instruction that is translated wrongly, for the test of the tests.
     pub(super) mutation: Mutation,
 }
@@ -260,6 +266,10 @@ pub(super) struct Translator<'t, 'p> {
     ask_rarely: Option<Span>,
     /// Nothing has been written to the mesh: the first statement of the run is being translated.
     pristine: bool,
+    /// In rounds of a parallel loop, and in functions that these call: other rounds may make it give up.
+    watches: bool,
+    /// In rounds of a parallel loop: their vertex, and what is seen of the values of vertices.
+    seen: Option<(Option<Value>, Seen)>,
 }
 
 impl<'t, 'p> Translator<'t, 'p> {
@@ -315,6 +325,8 @@ impl<'t, 'p> Translator<'t, 'p> {
             in_turn: None,
             ask_rarely: None,
             pristine: false,
+            watches: false,
+            seen: None,
         }
     }
 
@@ -324,6 +336,7 @@ impl<'t, 'p> Translator<'t, 'p> {
         let facts = self.unit.facts.function(id).ok_or_else(wrong_type)?;
         let (inline_depth, keeping) = (facts.inline_depth, facts.keeping.clone());
         self.pristine = facts.pristine;
+        self.watches = facts.in_parallel;
         self.prologue(inline_depth);
         let own_sets =
             function.locals.iter().enumerate().any(|(i, l)| l.ty == Type::Mesh && i >= function.parameters.len());
@@ -416,9 +429,7 @@ impl<'t, 'p> Translator<'t, 'p> {
 
     /// Asks for room on the native stack and among the open calls.
     fn prologue(&mut self, inline_depth: u32) {
-        let pointer = self.b.ins().get_stack_pointer(types::I64);
-        let limit = self.load_context(types::I64, context::STACK_LIMIT);
-        let low = self.b.ins().icmp(IntCC::UnsignedLessThan, pointer, limit);
+        let low = self.is_stack_low();
         let depth = self.load_context(types::I64, context::DEPTH);
         let depth = self.b.ins().iadd_imm_s(depth, 1);
         let deepest = self.b.ins().iadd_imm_s(depth, i64::from(inline_depth));
@@ -427,6 +438,18 @@ impl<'t, 'p> Translator<'t, 'p> {
         let bad = self.b.ins().bor(low, deep);
         self.fail_if(bad);
         self.store_context(depth, context::DEPTH);
+    }
+
+    /// Asks for room on the native stack.
+    fn ask_for_stack(&mut self) {
+        let low = self.is_stack_low();
+        self.fail_if(low);
+    }
+
+    fn is_stack_low(&mut self) -> Value {
+        let pointer = self.b.ins().get_stack_pointer(types::I64);
+        let limit = self.load_context(types::I64, context::STACK_LIMIT);
+        self.b.ins().icmp(IntCC::UnsignedLessThan, pointer, limit)
     }
 
     /// Ends the function well.

@@ -1,7 +1,7 @@
 //! Parameters and functions of the language.
 
 use super::super::context::{Context, MEMO_ENTRIES, MEMO_WORDS};
-use super::{Run, light, status, value_of, value_words, words_of};
+use super::{Run, is_part, light, quiet, status, value_of, words_in, words_of};
 use crate::builtins::{Builtin, Random};
 use crate::mesh::Value;
 
@@ -42,19 +42,25 @@ impl Run<'_> {
 
 /// Calls a builtin with operands in the words, one or three each.
 pub(super) extern "C" fn call_builtin(context: *mut Context, index: u32) -> u32 {
-    light(context, status::REPEAT, |run| {
+    let apply = |random: &mut Random| {
         let builtin = Builtin::all().nth(index as usize)?;
-        let words = value_words(run);
+        let words = words_in(context);
         let mut arguments = [Value::Bool(false); 4];
         let mut at = 0;
         for (argument, &ty) in arguments.iter_mut().zip(builtin.parameters()) {
             *argument = value_of(ty, words.get(at..)?);
             at += if ty == crate::mesh::Type::Vec { 3 } else { 1 };
         }
-        let result = builtin.apply(arguments.get(..builtin.parameters().len())?, &mut run.random)?;
+        let result = builtin.apply(arguments.get(..builtin.parameters().len())?, random)?;
         words[..3].copy_from_slice(&words_of(result)?);
         Some(status::DONE)
-    })
+    };
+    if is_part(context) {
+        // Rounds of parallel loops draw no random numbers.
+        quiet(status::REPEAT, || apply(&mut Random::new(0, 0)))
+    } else {
+        light(context, status::REPEAT, |run| apply(&mut run.random))
+    }
 }
 
 /// Calls a function of one double by its address.

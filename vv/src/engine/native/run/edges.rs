@@ -1,14 +1,13 @@
 //! Edge properties and mesh properties.
 
-use super::{Context, Run, light, status, value_of, value_words, vertex, words_of};
+use super::{Context, Run, light, looking, status, value_of, value_words, vertex, words_in, words_of};
 
 impl Run<'_> {
-    pub(super) fn edge_load(&mut self, property: u32, p: u32, q: u32, old: bool) -> Option<()> {
+    pub(super) fn edge_words(&self, property: u32, p: u32, q: u32, old: bool) -> Option<[u64; 3]> {
         let column = *self.edge_columns.get(property as usize)?;
         let mesh = if old { &self.old } else { &self.mesh };
         let value = mesh.edge_value(column, vertex(p)?, vertex(q)?)?;
-        value_words(self)[..3].copy_from_slice(&words_of(value)?);
-        Some(())
+        words_of(value)
     }
 
     pub(super) fn edge_store(&mut self, property: u32, p: u32, q: u32) -> Option<()> {
@@ -21,9 +20,9 @@ impl Run<'_> {
 
 /// A mesh property, into the words.
 pub(super) extern "C" fn mesh_load(context: *mut Context, set: u32, property: u32) -> u32 {
-    light(context, status::REPEAT, |run| {
+    looking(context, status::REPEAT, |run| {
         let value = *run.sets.get(set as usize)?.properties.get(property as usize)?;
-        value_words(run)[..3].copy_from_slice(&words_of(value)?);
+        words_in(context)[..3].copy_from_slice(&words_of(value)?);
         Some(status::DONE)
     })
 }

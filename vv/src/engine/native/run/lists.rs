@@ -1,7 +1,7 @@
 //! Lists of vertices: variables of type ring, copies of rings that loops walk, faces.
 
 use super::super::context::{CORNERS_AHEAD, Context, PADDING};
-use super::{Run, guard, light, status, value_words, vertex};
+use super::{Run, guard, light, quiet, status, value_words, vertex};
 use crate::engine::text;
 use crate::mesh::faces::faces_of;
 use crate::mesh::{Ring, Value, Vertex};
@@ -125,19 +125,13 @@ pub(super) extern "C" fn list_splice(context: *mut Context, list: u32, x: u32, a
 }
 
 /// Where a vertex stands first, -1 if it does not.
-pub(super) extern "C" fn list_find(context: *mut Context, start: *const Option<Vertex>, len: u32, x: u32) -> i32 {
-    light(context, -1, |_| i32::try_from(Ring::new(vertices(start, len)).find(vertex(x))?).ok())
+pub(super) extern "C" fn list_find(_: *mut Context, start: *const Option<Vertex>, len: u32, x: u32) -> i32 {
+    quiet(-1, || i32::try_from(Ring::new(vertices(start, len)).find(vertex(x))?).ok())
 }
 
 /// Where `p` stands first, if `q` is not null where `q` follows; -1 if nowhere.
-pub(super) extern "C" fn list_begin(
-    context: *mut Context,
-    start: *const Option<Vertex>,
-    len: u32,
-    p: u32,
-    q: u32,
-) -> i32 {
-    light(context, -1, |_| {
+pub(super) extern "C" fn list_begin(_: *mut Context, start: *const Option<Vertex>, len: u32, p: u32, q: u32) -> i32 {
+    quiet(-1, || {
         let slots = vertices(start, len);
         let follows = |i: usize| q == 0 || slots[if i + 1 == slots.len() { 0 } else { i + 1 }] == vertex(q);
         let i = (0..slots.len()).find(|&i| slots[i] == vertex(p) && follows(i))?;

@@ -1,7 +1,7 @@
 //! Rings and old values: what compiled code leaves to the runtime.
 
 use super::super::context::PADDING;
-use super::{Context, Run, guard, light, status, vertex};
+use super::{Context, Run, guard, looking, reading, status, vertex, words_in};
 use crate::mesh::{Mesh, Ring, Vertex};
 
 impl Run<'_> {
@@ -86,7 +86,7 @@ pub(super) extern "C" fn synchronize(context: *mut Context, set: u32, pristine: 
 
 /// Whether a vertex has an old value.
 pub(super) extern "C" fn holds(context: *mut Context, v: u32) -> u32 {
-    light(context, 0, |run| Some(u32::from(run.holds(vertex(v)?))))
+    looking(context, 0, |run| Some(u32::from(run.holds(vertex(v)?))))
 }
 
 /// `make` with `n` items at `items`, 0 for gaps.
@@ -153,7 +153,7 @@ pub(super) extern "C" fn splice(context: *mut Context, x: u32, a: u32, v: u32, b
 
 /// Where `x` (0 is the gap) stands in a ring, -1 if it does not.
 pub(super) extern "C" fn find(context: *mut Context, x: u32, v: u32, old: u32) -> i32 {
-    guard(context, -1, |run| {
+    reading(context, -1, |run| {
         let i = run.ring(vertex(v)?, old != 0).find(vertex(x))?;
         i32::try_from(i).ok()
     })
@@ -161,12 +161,15 @@ pub(super) extern "C" fn find(context: *mut Context, x: u32, v: u32, old: u32) -
 
 /// How many gaps a ring has.
 pub(super) extern "C" fn gaps(context: *mut Context, v: u32, old: u32) -> u32 {
-    guard(context, 0, |run| Some(run.ring(vertex(v)?, old != 0).gaps() as u32))
+    reading(context, 0, |run| Some(run.ring(vertex(v)?, old != 0).gaps() as u32))
 }
 
 /// An edge property between two vertices, into the words.
 pub(super) extern "C" fn edge_load(context: *mut Context, property: u32, p: u32, q: u32, old: u32) -> u32 {
-    guard(context, status::REPEAT, |run| run.edge_load(property, p, q, old != 0).map(|()| status::DONE))
+    reading(context, status::REPEAT, |run| {
+        words_in(context)[..3].copy_from_slice(&run.edge_words(property, p, q, old != 0)?);
+        Some(status::DONE)
+    })
 }
 
 /// An edge property between two vertices, from the words.

@@ -1,6 +1,6 @@
 //! Vertex sets.
 
-use super::{Context, Run, Set, guard, status, value_words, vertex};
+use super::{Context, Run, Set, guard, reading, status, value_words, vertex};
 use crate::mesh::VertexSet;
 
 impl Run<'_> {
@@ -111,7 +111,7 @@ pub(super) extern "C" fn set_remove(context: *mut Context, set: u32, v: u32) -> 
 
 /// `is v in S`; v is not null.
 pub(super) extern "C" fn set_contains(context: *mut Context, set: u32, v: u32) -> u32 {
-    guard(context, 0, |run| Some(u32::from(run.sets.get(set as usize)?.members.contains(vertex(v)?))))
+    reading(context, 0, |run| Some(u32::from(run.sets.get(set as usize)?.members.contains(vertex(v)?))))
 }
 
 /// Keeps a set for the caller.

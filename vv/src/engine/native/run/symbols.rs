@@ -2,7 +2,7 @@
 
 use cranelift_codegen::ir::{Type, types};
 
-use super::{builtins, edges, lists, memory, print, rings, sets};
+use super::{builtins, edges, lists, memory, parallel, print, rings, sets};
 
 macro_rules! runtime {
     ($($name:ident = $function:path, ($($operand:ident),*) $(-> $result:ident)?;)*) => {
@@ -48,6 +48,7 @@ macro_rules! runtime {
 runtime! {
     GrowVertices = memory::grow_vertices, (I64) -> I32;
     GrowSlots = memory::grow_slots, (I64, I64) -> I32;
+    Parallel = parallel::parallel, (I64, I32, I64, I64, I64) -> I32;
     Unwind = super::unwind, (I64, I32);
     CallBuiltin = builtins::call_builtin, (I64, I32) -> I32;
     CallD1 = builtins::call_d1, (I64, I64, F64) -> F64;

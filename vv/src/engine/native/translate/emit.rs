@@ -97,7 +97,13 @@ impl Translator<'_, '_> {
         // earlier load of the same place for this one. So each goes by an address of its own; x86 folds it away.
         let place = self.unit.sites.len() as i32;
         let base = self.b.ins().iadd_imm_s(flag, -i64::from(place));
-        let stop = self.b.ins().load(types::I8, MemFlagsData::trusted(), base, place);
+        let mut stop = self.b.ins().load(types::I8, MemFlagsData::trusted(), base, place);
+        if self.watches {
+            let flag = self.load_context(types::I64, context::OVER);
+            let base = self.b.ins().iadd_imm_s(flag, -i64::from(place));
+            let over = self.b.ins().load(types::I8, MemFlagsData::trusted(), base, place);
+            stop = self.b.ins().bor(stop, over);
+        }
         let stopped = self.b.create_block();
         self.b.set_cold_block(stopped);
         let next = self.b.create_block();

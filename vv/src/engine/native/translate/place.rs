@@ -6,6 +6,7 @@ use super::known::{Fact, Key};
 use super::{Storage, Symbol, Translated, Translator, Val, wrong_type};
 use crate::engine::native::Mutation;
 use crate::engine::native::context;
+use crate::engine::native::parallel::Column;
 use crate::ir::{Compound, Expr, ExprKind, Item, LocalId, Place, Ring, Step, StepPosition};
 use crate::mesh::Type;
 
@@ -77,6 +78,7 @@ impl<'p> Translator<'_, 'p> {
         let whole = match target {
             Target::Local(local) => self.read_local(local)?,
             Target::Position { .. } | Target::Vertex { .. } => {
+                self.see_target(target, false);
                 let (ty, flags, address) = self.address(target)?;
                 if let (Type::Vec, Some(axis)) = (ty, axis) {
                     let x = self.b.ins().load(types::F64, flags, address, 8 * i32::from(axis.min(2)));
@@ -117,6 +119,7 @@ impl<'p> Translator<'_, 'p> {
                 _ => self.define_local(local, value)?,
             },
             Target::Position { .. } | Target::Vertex { .. } => {
+                self.see_target(target, true);
                 let (_, flags, address) = self.address(target)?;
                 let first = axis.map_or(0, |axis| 8 * i32::from(axis.min(2)));
                 match value {
@@ -147,6 +150,14 @@ impl<'p> Translator<'_, 'p> {
             }
         }
         Ok(())
+    }
+
+    fn see_target(&mut self, target: Target, stores: bool) {
+        match target {
+            Target::Position { v, old: false } => self.see(Column::Position, v, stores),
+            Target::Vertex { property, v, old: false } => self.see(Column::Property(property), v, stores),
+            _ => {}
+        }
     }
 
     /// The whole value of a place where one coordinate is to be stored.

@@ -51,8 +51,8 @@ impl<'p> Translator<'_, 'p> {
             StmtKind::Loop { condition, body, update, body_first } => {
                 return self.repeat(condition.as_ref(), body, update, *body_first, s.span);
             }
-            StmtKind::ForallSet { local, set, body, .. } => {
-                self.for_set(*local, set, body)?;
+            StmtKind::ForallSet { parallel, local, set, body } => {
+                self.for_set(*parallel, *local, set, body)?;
             }
             StmtKind::ForallRing { local, follower, ring, from, body } => {
                 self.for_ring(*local, *follower, ring, from.as_ref(), body)?;

@@ -15,7 +15,7 @@ use crate::ir::{Expr, ExprKind, From, LocalId, Place, Ring, Stmt, StmtKind, Type
 use crate::source::Span;
 
 /// What a loop goes through: vertices from `first` to `end`, addresses.
-struct Rounds {
+pub(super) struct Rounds {
     local: LocalId,
     /// For what follows `local`.
     follower: Option<LocalId>,
@@ -30,6 +30,13 @@ struct Rounds {
     /// runtime.
     brief: bool,
     span: Span,
+}
+
+impl Rounds {
+    /// Through members of a set.
+    pub(super) fn over_set(local: LocalId, first: Value, end: Value, flags: MemFlagsData, span: Span) -> Self {
+        Self { local, follower: None, first, end, begin: None, flags, gaps: true, brief: false, span }
+    }
 }
 
 impl<'p> Translator<'_, 'p> {
@@ -108,7 +115,13 @@ impl<'p> Translator<'_, 'p> {
         Ok(true)
     }
 
-    pub(super) fn for_set(&mut self, local: LocalId, set: &'p Expr, body: &'p [Stmt]) -> Translated<()> {
+    pub(super) fn for_set(
+        &mut self,
+        parallel: bool,
+        local: LocalId,
+        set: &'p Expr,
+        body: &'p [Stmt],
+    ) -> Translated<()> {
         let span = set.span;
         let (index, mark) = self.set(set)?;
         let depth = self.call(Symbol::SetWalk, &[index]).ok_or_else(wrong_type)?;
@@ -117,12 +130,16 @@ impl<'p> Translator<'_, 'p> {
         let first = self.load_context(types::I64, context::VALUE);
         let count = self.load_context(types::I64, context::VALUE + 8);
         self.drop_sets(mark);
+        if parallel && self.call_rounds(local, body, first, count, span)? {
+            self.call(Symbol::SetWalkEnd, &[depth]);
+            return Ok(());
+        }
         let bytes = self.b.ins().ishl_imm_u(count, 2);
         let end = self.b.ins().iadd(first, bytes);
         self.forget(self.unit.facts.effects_of(body, &[], None));
         let exit = self.b.create_block();
         let flags = self.regions.members;
-        let rounds = Rounds { local, follower: None, first, end, begin: None, flags, gaps: true, brief: false, span };
+        let rounds = Rounds::over_set(local, first, end, flags, span);
         let ahead = Ahead::of_set(self.program, local, body);
         let ask = |t: &mut Self, at| t.ask_ahead(&ahead, at, end, flags);
         let before = self.in_turn;
@@ -329,7 +346,7 @@ impl<'p> Translator<'_, 'p> {
     }
 
     /// Goes through vertices. `ask` begins each round, with its address; `learn` is told each with its address, and the follower with its own.
-    fn walk(
+    pub(super) fn walk(
         &mut self,
         rounds: &Rounds,
         walk: Walk,
