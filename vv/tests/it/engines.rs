@@ -1,6 +1,7 @@
 //! The engines give the same: every program of the specification runs on both, and so do the assets and programs nobody
 //! wrote.
 
+mod parallel;
 mod programs;
 
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use vv::mesh::close::close;
 use vv::mesh::{Mesh, Value};
 use vv::stop::{Stop, Stopped};
 
-use programs::{APPENDED, EDGES, EVERYTHING, NEW, RINGS};
+use programs::{APPENDED, EDGES, EVERYTHING, NEW, PARALLEL, RINGS};
 
 use crate::run::generated::Writer;
 use crate::run::{OCTAHEDRON, SQUARE};
@@ -199,7 +200,7 @@ fn generated_programs_run_the_same() {
 /// A random program. Some have no edge values, without which rings are edited another way, some begin with a square, or
 /// with a wheel of many spokes.
 fn generate(seed: u64) -> String {
-    let mut text = Writer::new(seed, seed % 8 < 3).program();
+    let mut text = parallel::with_loops(&Writer::new(seed, seed % 8 < 3).program(), seed);
     if !seed.is_multiple_of(4) {
         text = text.replace("edge { double s; };", "");
         for name in ["a", "b", "c", "d"] {
@@ -302,7 +303,10 @@ fn a_stop_is_reported_where_it_was_noticed() {
             Ok(())
         }
     }
-    for statement in ["forall f in faces S print f;", "synchronize S;", "synchronize N;", "print S;", "print r;"] {
+    let parallel = "parallel forall v in S v$pos.x = 1;";
+    for statement in
+        ["forall f in faces S print f;", "synchronize S;", "synchronize N;", "print S;", "print r;", parallel]
+    {
         let text = format!(
             "{OCTAHEDRON}void step(mesh& S) {{ mesh N; ring r; forall v in S {{ add v to N; add v to r; break; }} print 0; {statement} }}"
         );
@@ -416,6 +420,8 @@ fn everything_runs_the_same() {
     check_to_the_end(&format!("{OCTAHEDRON}{EDGES}"));
     check_to_the_end(&format!("{OCTAHEDRON}{RINGS}"));
     check_to_the_end(&format!("{OCTAHEDRON}{APPENDED}"));
+    check_to_the_end(&format!("{}{PARALLEL}", wheel(40)));
+    check_to_the_end(&format!("{OCTAHEDRON}{PARALLEL}"));
 }
 
 /// Both engines give the same for `start` and a step, and that is no error: a program that fails early compares little.
@@ -441,6 +447,7 @@ fn planted_mistakes_are_found() {
                 && compare_generated(&format!("{OCTAHEDRON}{EDGES}"), mutation).is_ok()
                 && compare_generated(&format!("{OCTAHEDRON}{RINGS}"), mutation).is_ok()
                 && compare_generated(&format!("{OCTAHEDRON}{APPENDED}"), mutation).is_ok()
+                && compare_generated(&format!("{OCTAHEDRON}{PARALLEL}"), mutation).is_ok()
                 && NEW.concat().iter().all(|body| compare_generated(&with_new(body), mutation).is_ok())
                 && OLD.iter().all(|body| compare_generated(&with_old(body), mutation).is_ok())
                 && (0..40).all(|seed| compare_generated(&generate(seed), mutation).is_ok())

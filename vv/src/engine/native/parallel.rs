@@ -4,13 +4,15 @@
 //! that rounds keep to what they are told to, for else threads would store to the same memory: of functions that stand in
 //! for their calls, the stores are looked at when they are translated, see [`Seen`]; others may store to variables only.
 
+use rustc_hash::FxHashSet;
+
 use super::effects::Facts;
 use crate::builtins::Code;
 use crate::ir::visit::{Node, each};
 use crate::ir::{Argument, Expr, ExprKind, Function, FunctionId, LocalId, Place, Program, Ring, Stmt, StmtKind, Type};
 
 /// A column of values of vertices, as they are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Column {
     Position,
     Property(u32),
@@ -22,7 +24,7 @@ pub(super) struct Outside {
     /// Variables that are declared outside, each once.
     pub(super) captured: Vec<LocalId>,
     /// What functions read that do not stand in for their calls, of whatever vertex.
-    pub(super) read: Vec<Column>,
+    pub(super) read: FxHashSet<Column>,
 }
 
 impl Outside {
@@ -37,17 +39,21 @@ impl Outside {
         if leaves(body) {
             return None;
         }
-        let mut declared = Vec::new();
+        let mut declared = FxHashSet::default();
         each(body, &mut |node| {
             if let Node::Stmt(s) = node {
                 match &s.kind {
-                    StmtKind::Declare { local, .. } => declared.push(*local),
+                    StmtKind::Declare { local, .. } => {
+                        declared.insert(*local);
+                    }
                     StmtKind::ForallRing { local, follower, .. } => declared.extend([*local].iter().chain(follower)),
                     _ => {}
                 }
             }
         });
-        let mut reader = Reader { program, facts, outside: Self::default(), called: Vec::new() };
+        let mut named_before: FxHashSet<LocalId> = std::iter::once(local).collect();
+        let mut reader =
+            Reader { program, facts, outside: Self::default(), called: Vec::new(), met: FxHashSet::default() };
         let mut fits = true;
         each(body, &mut |node| {
             fits &= !matches!(node, Node::Stmt(Stmt { kind: StmtKind::Return(_), .. }))
@@ -56,7 +62,7 @@ impl Outside {
                     declared.contains(&l) || function.locals.get(l.0 as usize).is_some_and(|l| l.ty == Type::Mesh)
                 });
             for l in named(&node) {
-                if l != local && !declared.contains(&l) && !reader.outside.captured.contains(&l) {
+                if !declared.contains(&l) && named_before.insert(l) {
                     reader.outside.captured.push(l);
                 }
             }
@@ -118,8 +124,9 @@ struct Reader<'a> {
     program: &'a Program,
     facts: &'a Facts,
     outside: Outside,
-    /// Functions that are called, and whether they or their callers are compiled by themselves.
+    /// Functions that are called, each once, and whether they or their callers are compiled by themselves.
     called: Vec<(FunctionId, bool)>,
+    met: FxHashSet<(FunctionId, bool)>,
 }
 
 impl Reader<'_> {
@@ -152,7 +159,7 @@ impl Reader<'_> {
                 ExprKind::Call(id, arguments) => {
                     let stands_in = self.facts.function(*id).is_some_and(|f| f.inline);
                     let call = (*id, apart || !stands_in);
-                    if !self.called.contains(&call) {
+                    if self.met.insert(call) {
                         self.called.push(call);
                     }
                     matches!(e.ty, Type::Value(_) | Type::Void)
@@ -164,7 +171,7 @@ impl Reader<'_> {
             },
             Node::Place(place) => {
                 if apart && let Some(column) = column_of(place) {
-                    self.outside.read.push(column);
+                    self.outside.read.insert(column);
                 }
                 true
             }
@@ -185,9 +192,9 @@ fn column_of(place: &Place) -> Option<Column> {
 #[derive(Debug, Default)]
 pub(super) struct Seen {
     /// Stored to the round's own vertex.
-    pub(super) stored: Vec<Column>,
+    pub(super) stored: FxHashSet<Column>,
     /// Read of another.
-    pub(super) read: Vec<Column>,
+    pub(super) read: FxHashSet<Column>,
     /// Something was stored to another.
     pub(super) strays: bool,
 }
@@ -195,7 +202,7 @@ pub(super) struct Seen {
 impl Seen {
     /// Whether no round stores what another one stores or reads.
     pub(super) fn is_apart(&self) -> bool {
-        !self.strays && !self.stored.iter().any(|column| self.read.contains(column))
+        !self.strays && self.stored.is_disjoint(&self.read)
     }
 }
 

@@ -138,6 +138,58 @@ void step(mesh& S) {
 }
 "#;
 
+/// Parallel loops with all that their rounds may do.
+pub const PARALLEL: &str = "
+vertex { double u = 1; double du; int n; vertex mate; vec was; bool high; };
+edge { double s = 2; };
+mesh { double scale = 0.5; };
+param int count = 3;
+
+static vec mean(vertex p) { vec m; forall q in `p m += `q$pos; return m / (1.0 + valence `p); }
+static void raise(vertex p, double x) { if (x > 1) { p$u += x; return; } p$n++; }
+static void twice(double& x) { x *= 2; }
+static double deep(vertex p, int n) { return n > 0 ? deep(any in p, n - 1) + 1 : `p$pos.x; }
+static void grow(double& x, int n) { if (n > 0) { grow(x, n - 1); x += n; } }
+
+void step(mesh& S) {
+  double x = 1.25, z = 0.25; int k = 2; vec shift = vec(1, 2, 3); bool yes = true; vertex top; mesh T, N;
+  forall p in S { p$u = x; x += 0.125; top = p; if (valence p > 2) add p to T; }
+  remove any in top from T;
+  grow(x, 3);
+  synchronize S;
+  parallel forall p in S {
+    if (p == any in top) continue;
+    p$pos = mean(p) + shift * S$scale;
+    p$was = `p$pos;
+    p$pos.y += z;
+  }
+  parallel forall p in S {
+    double sum = 0; int m;
+    forall q in p {
+      if (is q in T) continue;
+      sum += cos(tau / valence q) + pow(valence q, 1.5) + (p|q)$s;
+      m += q < p;
+      forall r in q { if (r == p) break; sum += `r$pos.y; }
+    }
+    p$du = sum; p$n += m + gaps p; p$high = yes && is top in p;
+    p$mate = nextto any in p in p;
+    forall q, r in `p from any in `p p$u += q$pos.x * r$pos.y;
+  }
+  parallel forall p in S {
+    double y = p$du, w = x;
+    grow(y, 2);
+    twice(y);
+    raise(p, clamp(y, -2, 2) + deep(p, count) + w);
+    p$u /= hypot(z, length(p$pos));
+  }
+  parallel forall p in T {
+    for (int i = 0; i < 4; i++) { if (i == 2) continue; p$n += i * k; }
+    while (p$n > 10) p$n -= 3;
+  }
+  parallel forall p in N p$n = 1;
+}
+";
+
 /// A mistake in these ends in no error, which would be found by the interpreter.
 pub const APPENDED: &str = "
 void step(mesh& S) {

@@ -64,13 +64,13 @@ pub(super) extern "C" fn parallel(
     count: u64,
     environment: *const u64,
 ) -> u32 {
-    // SAFETY: the context is that of a run that is alive and not borrowed while compiled code runs. Nothing here refers to
-    // the run itself while compiled code works.
-    let (rounds, words) = unsafe {
+    // SAFETY: the context is that of a run that is alive and not borrowed while compiled code runs. Both references lead out of
+    // the run, to which nothing here refers while compiled code works.
+    let (run, rounds, layout) = unsafe {
         let run = (*context).run.cast::<Run<'_>>();
-        (&(*run).rounds).get(index as usize).map_or((None, 0), |r| (Some(*r), (*run).fixed.layout.words()))
+        (run, (*run).rounds, (*run).fixed.layout)
     };
-    let Some(Rounds { code, apart }) = rounds else { return status::REPEAT };
+    let Some(&Rounds { code, apart }) = rounds.get(index as usize) else { return status::REPEAT };
     let count = count as usize;
     let work = || {
         let threads = if apart && count >= FEWEST { rayon::current_num_threads() } else { 1 };
@@ -80,7 +80,15 @@ pub(super) extern "C" fn parallel(
         }
         let parts = (count / PART).clamp(1, PARTS * threads);
         let over = AtomicU8::new(0);
-        let each = Loop { code, first, count, environment, context: context.cast::<u64>().cast_const(), words, over };
+        let each = Loop {
+            code,
+            first,
+            count,
+            environment,
+            context: context.cast::<u64>().cast_const(),
+            words: layout.words(),
+            over,
+        };
         let parts = (0..parts).into_par_iter().with_max_len(1).map(|part| each.part(part, parts));
         parts.max().unwrap_or(status::DONE)
     };
@@ -88,7 +96,8 @@ pub(super) extern "C" fn parallel(
     if status != status::DONE {
         // A stop is reported where the loop stands.
         // SAFETY: as above; threads have come to their end.
-        unsafe { (&mut (*(*context).run.cast::<Run<'_>>()).calls).clear() };
+        let calls = unsafe { &mut (*run).calls };
+        calls.clear();
     }
     status
 }

@@ -156,10 +156,14 @@ impl<'p> Translator<'_, 'p> {
     pub(super) fn see(&mut self, column: Column, v: Value, stores: bool) {
         if let Some((own, seen)) = &mut self.seen {
             match (*own == Some(v), stores) {
-                (true, true) => seen.stored.push(column),
+                (true, true) => {
+                    seen.stored.insert(column);
+                }
                 (true, false) => {}
                 (false, true) => seen.strays = true,
-                (false, false) => seen.read.push(column),
+                (false, false) => {
+                    seen.read.insert(column);
+                }
             }
         }
     }

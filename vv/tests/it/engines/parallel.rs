@@ -1,0 +1,221 @@
+//! Parallel loops give the same on any number of threads.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+use rayon::ThreadPoolBuilder;
+use vv::builtins::Random;
+use vv::engine::{Engine, Failure, FailureKind, Machine, Settings};
+use vv::io::{Format, ReadOptions, read};
+use vv::mesh::Mesh;
+use vv::stop::Stopped;
+
+use super::programs::PARALLEL;
+use super::{assets, compile_text, state, wheel};
+use crate::run::OCTAHEDRON;
+
+const THREADS: [usize; 3] = [1, 2, 7];
+
+/// A step on so many threads.
+fn step(text: &str, engine: Engine, mesh: &Mesh, threads: usize, settings: &Settings) -> Result<Mesh, Failure> {
+    let program = compile_text(text);
+    let machine = Machine::new(Arc::clone(&program), engine);
+    assert_eq!(machine.engine(), engine);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| machine.run(program.default_rule().unwrap(), mesh, 1, settings, &mut Vec::new()))
+}
+
+fn start(text: &str) -> Mesh {
+    let program = compile_text(text);
+    let machine = Machine::new(Arc::clone(&program), Engine::Interpret);
+    machine.run(program.start.unwrap(), &Mesh::new(), 0, &Settings::default(), &mut Vec::new()).unwrap()
+}
+
+/// All threads end as the interpreter does.
+#[track_caller]
+fn check(text: &str, mesh: &Mesh) -> Result<Mesh, Failure> {
+    let interpreted = step(text, Engine::Interpret, mesh, 1, &Settings::default());
+    for threads in THREADS {
+        let compiled = step(text, Engine::Native, mesh, threads, &Settings::default());
+        match (&interpreted, &compiled) {
+            (Ok(a), Ok(b)) => assert_eq!(state(a), state(b), "{threads} threads"),
+            (Err(a), Err(b)) => assert_eq!((a.kind, &a.diagnostic), (b.kind, &b.diagnostic), "{threads} threads"),
+            _ => panic!("{threads} threads: {interpreted:?}, {compiled:?}"),
+        }
+    }
+    interpreted
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    // A vertex whose ring is long, with and without values of edges.
+    for text in [PARALLEL.to_owned(), PARALLEL.replace("edge { double s = 2; };", "").replace(" + (p|q)$s", "")] {
+        let text = format!("{}{text}", wheel(40));
+        check(&text, &start(&text)).unwrap();
+        for path in assets("meshes", "obj") {
+            let mesh = read(&std::fs::read(&path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0;
+            if mesh.vertex_count() < 400 {
+                check(&text, &mesh).unwrap();
+            }
+        }
+    }
+}
+
+/// A program around a loop over the vertices of an octahedron, whose numbers are 0 to 5.
+fn with_numbers(round: &str) -> String {
+    format!(
+        "vertex {{ int n; double x; }};\n{OCTAHEDRON}
+static int deep(int n) {{ return n > 0 ? deep(n - 1) + 1 : 0; }}
+static void endless(vertex p) {{ while (p$n >= 0) p$x += 1; }}
+void step(mesh& S) {{
+  int i = 0;
+  forall p in S p$n = i++;
+  parallel forall p in S {{ {round} }}
+}}
+"
+    )
+}
+
+#[track_caller]
+fn check_fails(round: &str, message: &str) {
+    let text = with_numbers(round);
+    let failure = check(&text, &start(&text)).unwrap_err();
+    assert_eq!(failure.diagnostic.message, message);
+}
+
+#[test]
+fn an_error_in_a_round_is_that_of_the_first_in_turn() {
+    check_fails("p$x = 1 / (p$n - 3);", "this divides by zero");
+    check_fails("if (p$n == 2) p$x = 1 % (p$n - 2); p$x = 1 / (p$n - 4);", "this divides by zero");
+    check_fails("p$x = deep(p$n < 4 ? 3 : 100000);", "more than 10000 calls are open at once");
+    check_fails("vertex q = p$n == 5 ? null : p; p$x = q$pos.x;", "null has no position");
+}
+
+#[test]
+fn calls_may_be_as_deep_as_elsewhere() {
+    let text = with_numbers("p$x = deep(9900 + p$n);");
+    check(&text, &start(&text)).unwrap();
+}
+
+#[test]
+fn rounds_that_never_end_are_given_up_when_one_before_them_fails() {
+    check_fails("if (p$n == 0) p$n /= 0; while (true) p$x += 1;", "this divides by zero");
+    check_fails("if (p$n == 0) p$n /= 0; endless(p);", "this divides by zero");
+}
+
+#[test]
+fn a_stop_ends_all_rounds() {
+    for round in ["while (true) p$x += 1;", "endless(p);", "if (p$n > 3) endless(p);"] {
+        let text = with_numbers(round);
+        let start = start(&text);
+        for threads in THREADS {
+            let settings = Settings::default();
+            let stop = settings.stop.clone();
+            let stopper = thread::spawn(move || {
+                thread::sleep(Duration::from_millis(50));
+                stop.request(Stopped::ByTime);
+            });
+            let failure = step(&text, Engine::Native, &start, threads, &settings).unwrap_err();
+            stopper.join().unwrap();
+            assert_eq!(failure.kind, FailureKind::Stopped(Stopped::ByTime));
+            let span = failure.diagnostic.span.unwrap();
+            assert_eq!(&text[span.start as usize..span.end as usize], "S");
+        }
+    }
+}
+
+/// A random program with parallel loops as its step begins, and as it ends, if it comes so far.
+pub fn with_loops(text: &str, seed: u64) -> String {
+    let mut writer = Writer { random: Random::new(seed, 1), values: false };
+    let functions = "static double reach(vertex p, int n) { return n > 0 ? reach(any in p, n - 1) : valence p; }
+static vec about(vertex p) { vec m; forall q in `p m += `q$pos; return m; }
+";
+    let step = text.find("void step").unwrap_or(0);
+    let (before, step) = text.split_at(step);
+    let loops: Vec<String> = (0..2).map(|_| writer.parallel_loop()).collect();
+    let mut begin = step.lines().take(5).collect::<Vec<_>>().join("\n");
+    let _ = writeln!(begin, "\n  synchronize S;\n  {}", loops[0]);
+    let rest = step.lines().skip(5).collect::<Vec<_>>().join("\n");
+    let end = rest.trim_end().trim_end_matches('}');
+    format!("{before}{functions}{begin}{end}  {}\n}}\n", loops[1])
+}
+
+/// Writes parallel loops.
+struct Writer {
+    random: Random,
+    /// Whether rounds store numbers and mates; positions if not.
+    values: bool,
+}
+
+impl Writer {
+    fn below(&mut self, n: u64) -> u64 {
+        self.random.bits() % n
+    }
+
+    fn pick<'a>(&mut self, from: &[&'a str]) -> &'a str {
+        from[self.below(from.len() as u64) as usize]
+    }
+
+    fn parallel_loop(&mut self) -> String {
+        self.values = self.below(2) == 0;
+        let body: Vec<_> = (0..=self.below(5)).map(|_| self.statement(2)).collect();
+        let (number, vertex) = (self.number(1), self.vertex(1));
+        format!("parallel forall w in S {{ double y = {number}; vertex v = {vertex}; int m = i; {} }}", body.join(" "))
+    }
+
+    fn statement(&mut self, depth: u64) -> String {
+        let (number, vertex) = (self.number(2), self.vertex(2));
+        if depth > 0 && self.below(3) == 0 {
+            let body = self.statement(depth - 1);
+            let condition = self.pick(&["v < b", "is v in c", "y > x", "w == a", "is v in T", "m % 2 == 0"]);
+            return match self.below(4) {
+                0 => format!("if ({condition}) {{ {body} continue; }} else y = {number};"),
+                1 => format!("forall q in {vertex} {{ v = q; {body} y += {number}; if ({condition}) break; }}"),
+                2 => format!("forall q, r in `w {{ v = r; {body} if ({condition}) continue; m++; }}"),
+                _ => format!("for (int k = 0; k < 3; k++) {{ m += k; {body} }}"),
+            };
+        }
+        match (self.below(6), self.values) {
+            (0, _) => format!("y -= {number};"),
+            (1, _) => format!("v = {vertex};"),
+            (2, true) => format!("w$mate = {vertex};"),
+            (_, true) => format!("w$n += m + (y > {number});"),
+            (2, false) => "w$pos += about(w) * 0.125;".to_owned(),
+            (_, false) => format!("w$pos.{} = {number};", self.pick(&["x", "y", "z"])),
+        }
+    }
+
+    fn vertex(&mut self, depth: u64) -> String {
+        if depth == 0 || self.below(2) == 0 {
+            return self.pick(&["w", "w", "a", "b", "c"]).to_owned();
+        }
+        let v = self.vertex(depth - 1);
+        match self.below(4) {
+            0 => format!("(any in {v})"),
+            1 => format!("(nextto {v} in w)"),
+            2 => format!("(prevto any in w in `({v}))"),
+            _ if self.values => format!("(any in {v})"),
+            _ => format!("{v}$mate"),
+        }
+    }
+
+    fn number(&mut self, depth: u64) -> String {
+        let v = self.vertex(1);
+        if depth == 0 {
+            return self.pick(&["x", "1.5", "i", "w$pos.x", "w$n", "`w$pos.z"]).to_owned();
+        }
+        let (a, b) = (self.number(depth - 1), self.number(depth - 1));
+        match self.below(7) {
+            0 => format!("({a} + {b})"),
+            1 => format!("({a} * {b})"),
+            2 => format!("cos({a} / {b})"),
+            3 => format!("reach({v}, 2)"),
+            4 => format!("(gaps {v} + valence {v})"),
+            5 if self.values => format!("length({v}$pos)"),
+            5 => format!("{v}$n"),
+            _ => format!("`({v})$pos.y"),
+        }
+    }
+}
