@@ -5,18 +5,20 @@
 //! tell nothing, are caught by looking once a second.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsString;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
-use notify_debouncer_full::notify::event::{AccessKind, AccessMode, EventKind};
-use notify_debouncer_full::notify::{RecommendedWatcher, RecursiveMode};
-use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
+use notify::event::{AccessKind, AccessMode, EventKind};
+use notify::{RecommendedWatcher, RecursiveMode, Watcher};
 
-/// How long a file must rest before it is looked at, and how often that is asked: the pieces of one write belong together.
-const REST: Duration = Duration::from_millis(25);
+/// How long a file must rest before it is looked at: the pieces of one write belong together.
+const REST: Duration = Duration::from_millis(15);
+/// How long it is waited for at most.
+const PATIENCE: Duration = Duration::from_millis(100);
 /// How often files are looked at without having been told.
 const LOOK: Duration = Duration::from_secs(1);
 
@@ -36,8 +38,16 @@ type Stamp = Option<(SystemTime, u64)>;
 
 enum Message {
     Files(BTreeMap<PathBuf, Stamp>),
-    Event,
+    Event(Told),
     Close,
+}
+
+/// What the system tells of folders.
+enum Told {
+    /// Files have changed, of these names.
+    Of(Vec<OsString>),
+    /// Something has changed, or was missed.
+    Something,
 }
 
 impl Watch {
@@ -50,11 +60,10 @@ impl Watch {
         let (sender, changes) = mpsc::channel();
         let events = messages.clone();
         let thread = std::thread::Builder::new().name("watch".to_owned()).spawn(move || {
-            let mut post = Post { files: BTreeMap::new(), folders: BTreeSet::new(), debouncer: None };
-            post.debouncer = new_debouncer(REST, Some(REST), move |told: DebounceEventResult| {
-                // That a file was read is no news; to look for it would be to read it again, for ever.
-                if told.map_or(true, |told| told.iter().any(|event| changes_something(event.kind))) {
-                    let _ = events.send(Message::Event);
+            let mut post = Post { files: BTreeMap::new(), folders: BTreeSet::new(), watcher: None };
+            post.watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+                if let Some(told) = told(event) {
+                    let _ = events.send(Message::Event(told));
                 }
             })
             .map_err(|error| log::warn!("files are looked at once a second only: {error}"))
@@ -95,7 +104,7 @@ impl Drop for Watch {
 struct Post {
     files: BTreeMap<PathBuf, Seen>,
     folders: BTreeSet<PathBuf>,
-    debouncer: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
+    watcher: Option<RecommendedWatcher>,
 }
 
 /// What a file was like when it was looked at last.
@@ -112,13 +121,27 @@ struct Seen {
 
 impl Post {
     fn stand(&mut self, inbox: &Receiver<Message>, changes: &Sender<PathBuf>, wake: &dyn Fn()) {
+        let mut waiting: Option<Waiting> = None;
+        let mut next_look = Instant::now() + LOOK;
         loop {
-            let changed = match inbox.recv_timeout(LOOK) {
+            let due = waiting.as_ref().map_or(next_look, |w| w.due().min(next_look));
+            let mut changed = match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
                 Ok(Message::Close) | Err(RecvTimeoutError::Disconnected) => return,
                 Ok(Message::Files(files)) => self.set_files(files),
-                Ok(Message::Event) => self.look(true),
-                Err(RecvTimeoutError::Timeout) => self.look(false),
+                Ok(Message::Event(told)) => {
+                    waiting.get_or_insert_with(Waiting::new).hear(told);
+                    Vec::new()
+                }
+                Err(RecvTimeoutError::Timeout) => Vec::new(),
             };
+            let now = Instant::now();
+            if let Some(rested) = waiting.take_if(|w| w.due() <= now) {
+                changed.extend(self.look(|path| rested.names(path), true));
+            }
+            if next_look <= now {
+                changed.extend(self.look(|_| true, false));
+                next_look = now + LOOK;
+            }
             if !changed.is_empty() {
                 changed.into_iter().for_each(|path| drop(changes.send(path)));
                 wake();
@@ -126,9 +149,10 @@ impl Post {
         }
     }
 
-    fn look(&mut self, told: bool) -> Vec<PathBuf> {
+    fn look(&mut self, at: impl Fn(&Path) -> bool, told: bool) -> Vec<PathBuf> {
         self.watch_folders();
-        self.files.iter_mut().filter_map(|(path, seen)| seen.look(path, told).then(|| path.clone())).collect()
+        let files = self.files.iter_mut().filter(|(path, _)| at(path));
+        files.filter_map(|(path, seen)| seen.look(path, told).then(|| path.clone())).collect()
     }
 
     fn set_files(&mut self, files: BTreeMap<PathBuf, Stamp>) -> Vec<PathBuf> {
@@ -150,7 +174,7 @@ impl Post {
     }
 
     fn watch_folders(&mut self) {
-        let Some(debouncer) = &mut self.debouncer else { return };
+        let Some(watcher) = &mut self.watcher else { return };
         let folder = |path: &PathBuf| match path.parent() {
             Some(parent) if parent != Path::new("") => parent.to_owned(),
             _ => PathBuf::from("."),
@@ -159,18 +183,18 @@ impl Post {
         self.folders.retain(|folder| {
             let exists = folder.is_dir();
             if !exists {
-                let _ = debouncer.unwatch(folder);
+                let _ = watcher.unwatch(folder);
             }
             exists
         });
         let wanted: BTreeSet<PathBuf> = self.files.keys().map(folder).filter(|f| f.is_dir()).collect();
         for folder in self.folders.difference(&wanted) {
-            let _ = debouncer.unwatch(folder);
+            let _ = watcher.unwatch(folder);
         }
         let new: Vec<PathBuf> = wanted.difference(&self.folders).cloned().collect();
         self.folders.retain(|folder| wanted.contains(folder));
         for folder in new {
-            if debouncer.watch(&folder, RecursiveMode::NonRecursive).is_ok() {
+            if watcher.watch(&folder, RecursiveMode::NonRecursive).is_ok() {
                 self.folders.insert(folder);
             }
         }
@@ -203,8 +227,48 @@ impl Seen {
     }
 }
 
-fn changes_something(kind: EventKind) -> bool {
-    !matches!(kind, EventKind::Access(access) if access != AccessKind::Close(AccessMode::Write))
+/// What was heard since files were looked at.
+struct Waiting {
+    first: Instant,
+    last: Instant,
+    /// All if `None`.
+    names: Option<BTreeSet<OsString>>,
+}
+
+impl Waiting {
+    fn new() -> Self {
+        let now = Instant::now();
+        Self { first: now, last: now, names: Some(BTreeSet::new()) }
+    }
+
+    fn hear(&mut self, told: Told) {
+        self.last = Instant::now();
+        match (told, &mut self.names) {
+            (Told::Of(more), Some(names)) => names.extend(more),
+            _ => self.names = None,
+        }
+    }
+
+    fn due(&self) -> Instant {
+        (self.last + REST).min(self.first + PATIENCE)
+    }
+
+    fn names(&self, path: &Path) -> bool {
+        self.names.as_ref().is_none_or(|names| path.file_name().is_none_or(|name| names.contains(name)))
+    }
+}
+
+/// What an event tells. That a file was read is no news; to look for it would be to read it again, for ever.
+fn told(event: notify::Result<notify::Event>) -> Option<Told> {
+    let Ok(event) = event else { return Some(Told::Something) };
+    if matches!(event.kind, EventKind::Access(access) if access != AccessKind::Close(AccessMode::Write)) {
+        return None;
+    }
+    let names = event.paths.iter().map(|path| path.file_name().map(std::ffi::OsStr::to_owned));
+    match names.collect::<Option<Vec<_>>>() {
+        Some(names) if !names.is_empty() && !event.need_rescan() => Some(Told::Of(names)),
+        _ => Some(Told::Something),
+    }
 }
 
 fn stamp(path: &Path) -> Stamp {
@@ -274,5 +338,75 @@ mod tests {
         let mut new = Seen::default();
         assert!(new.look(&path, true), "what it is from the first is no change that waits");
         assert!(!new.look(&path, false));
+    }
+
+    #[track_caller]
+    fn wait_for_change(watch: &Watch, mut meanwhile: impl FnMut()) -> PathBuf {
+        let began = Instant::now();
+        loop {
+            if let Some(path) = watch.change() {
+                return path;
+            }
+            assert!(began.elapsed() < Duration::from_secs(30), "waited in vain");
+            meanwhile();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// As a log beside the program: it never rests.
+    #[test]
+    fn a_change_is_told_of_while_other_files_of_the_folder_never_rest() {
+        let folder = tempfile::tempdir().unwrap();
+        let [path, log] = ["a", "log"].map(|name| folder.path().join(name));
+        std::fs::write(&path, "one").unwrap();
+        let mut watch = Watch::start(|| ()).unwrap();
+        watch.set_files([path.clone()]);
+        let mut lines = 0;
+        let mut write = || {
+            lines += 1;
+            std::fs::write(&log, format!("{lines}")).unwrap();
+        };
+        for _ in 0..20 {
+            write();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        std::fs::write(&path, "two").unwrap();
+        assert_eq!(wait_for_change(&watch, write), path);
+    }
+
+    #[test]
+    fn a_file_that_is_written_without_rest_is_looked_at_all_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::write(&path, "0").unwrap();
+        let mut watch = Watch::start(|| ()).unwrap();
+        watch.set_files([path.clone()]);
+        let mut n = 0;
+        let write = || {
+            n += 1;
+            std::fs::write(&path, format!("{n}")).unwrap();
+        };
+        assert_eq!(wait_for_change(&watch, write), path);
+    }
+
+    #[test]
+    fn files_that_nobody_named_are_not_read() {
+        let mut waiting = Waiting::new();
+        waiting.hear(Told::Of(vec!["a".into(), "b".into()]));
+        let named = |w: &Waiting| ["x/a", "x/b", "x/c"].map(|path| w.names(Path::new(path)));
+        assert_eq!(named(&waiting), [true, true, false]);
+        waiting.hear(Told::Something);
+        waiting.hear(Told::Of(vec!["a".into()]));
+        assert_eq!(named(&waiting), [true; 3], "something was missed");
+    }
+
+    #[test]
+    fn pieces_of_one_write_are_waited_for_and_not_for_ever() {
+        let mut waiting = Waiting::new();
+        assert!(waiting.due() <= waiting.first + REST);
+        waiting.last = waiting.first + REST / 2;
+        assert_eq!(waiting.due(), waiting.first + REST / 2 + REST);
+        waiting.last = waiting.first + 10 * PATIENCE;
+        assert_eq!(waiting.due(), waiting.first + PATIENCE);
     }
 }
