@@ -43,14 +43,15 @@ use declare::Signature;
 const MOST_DIAGNOSTICS: usize = 100;
 
 /// Checks the files of a program, included ones first, its own file ([`FileId::MAIN`]) last. The program may be run
-/// only if no diagnostic is an error. A `const T&` is passed as a `T` that cannot be changed.
+/// only if no diagnostic is an error. A `const T&` is passed as a `T` that cannot be changed. Texts are `sound` if they were
+/// read without error.
 #[must_use]
-pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)]) -> (Program, Vec<Diagnostic>) {
+pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)], sound: bool) -> (Program, Vec<Diagnostic>) {
     let mut checker = Checker::new(&sources);
     checker.declare_functions(files);
     checker.declare_globals(files);
     let functions = checker.define_functions();
-    checker.look_at_calls();
+    checker.look_at_calls(sound);
     checker.look_at_parallel_loops(&functions);
     checker.warn_of_copied_mesh();
     let program = Program {

@@ -128,7 +128,8 @@ pub fn compile(name: &str, text: &str, include: &mut dyn FnMut(&str, &str) -> Re
     loader.load(name, text, include, 0);
     let Loader { sources, files, mut diagnostics, .. } = loader;
     let sources = Arc::new(sources);
-    let (program, more) = check::check(Arc::clone(&sources), &files);
+    let sound = !diagnostics.iter().any(|d| d.severity == Severity::Error);
+    let (program, more) = check::check(Arc::clone(&sources), &files, sound);
     diagnostics.extend(more);
     // What has no place speaks of all that has one, and comes last.
     diagnostics.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start, s.end))));

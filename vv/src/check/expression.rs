@@ -374,6 +374,17 @@ impl<'a> Checker<'a> {
             for row in rows {
                 error = error.evidence(format!("`{row}`: {}", row.doc()));
             }
+            let hint = match (name, types.len()) {
+                ("vec", 2) => Some("in the plane z is 0: `vec(x, y, 0)`"),
+                ("vec", 1) => Some("a vector has three coordinates: `vec(x, x, x)`"),
+                ("min" | "max", 3..) => Some("of more than two: `min(a, min(b, c))`"),
+                ("length", 1) if types[0] != ValueType::Vertex => Some("of numbers: `abs(x)`"),
+                ("length", 2) => Some("between two positions: `distance(a, b)`"),
+                _ => None,
+            };
+            if let Some(hint) = hint {
+                error = error.hint(hint.replace("min", if name == "max" { "max" } else { "min" }));
+            }
             // `distance(p, q)`, meant of the positions.
             let positions = types.iter().map(|&t| if t == ValueType::Vertex { ValueType::Vec } else { t });
             let positions: Vec<ValueType> = positions.collect();

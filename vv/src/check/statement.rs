@@ -138,7 +138,7 @@ impl<'a> Checker<'a> {
                 parts.map(|((item, anchor), ring)| StmtKind::Splice { item, side: *side, anchor, ring })
             }
             TreeStmt::Synchronize(set) => {
-                self.body.effects.synchronizes = true;
+                self.body.effects.synchronizes.get_or_insert(span);
                 self.mesh(set).map(StmtKind::Synchronize)
             }
             TreeStmt::Add { vertex, set } => self.add(vertex, set),
@@ -148,6 +148,12 @@ impl<'a> Checker<'a> {
                     let error = Diagnostic::error(set.span, "this is a `ring`, not a `mesh`");
                     self.report(error.hint(format!("write `erase {vertex} from {text};`")));
                     self.body.mention(ring);
+                    return true;
+                }
+                if self.is_vertex(set) {
+                    let (vertex, of) = (self.text(vertex.span), self.text(set.span));
+                    let error = Diagnostic::error(set.span, "this is a `vertex`, not a `mesh`");
+                    self.report(error.hint(format!("write `erase {vertex} from {of};`")));
                     return true;
                 }
                 let (vertex, set) = (self.vertex(vertex), self.set(set));
@@ -196,6 +202,16 @@ impl<'a> Checker<'a> {
         (self.body.type_of(id) == Some(Type::Ring)).then_some((name, id))
     }
 
+    /// Whether a variable is named that is a vertex.
+    fn is_vertex(&mut self, e: &'a tree::Expr) -> bool {
+        let Tree::Name(name) = &bare(e).kind else { return false };
+        let id = self.body.find(name).filter(|&id| self.body.type_of(id) == Some(VERTEX));
+        if let Some(id) = id {
+            self.body.mention(id);
+        }
+        id.is_some()
+    }
+
     fn add(&mut self, vertex: &'a tree::Expr, set: &'a tree::Expr) -> Option<StmtKind> {
         if let Tree::Name(name) = &bare(vertex).kind
             && let Some(id) = self.body.find(name)
@@ -207,6 +223,11 @@ impl<'a> Checker<'a> {
                 Diagnostic::error(vertex.span, format!("`{name}` is a mesh, and vertices are added"))
                     .hint(format!("write `merge {text} with {name};`")),
             );
+        }
+        if self.is_vertex(set) {
+            let (vertex, of) = (self.text(vertex.span), self.text(set.span));
+            let error = Diagnostic::error(set.span, "this is a `vertex`, not a `mesh`");
+            return self.fail(error.hint(format!("into the ring of {of}: `splice {vertex} after a in {of};`")));
         }
         let (vertex, to) = (self.vertex(vertex), self.collection(set));
         vertex.zip(to).map(|(vertex, (id, ty))| match ty {

@@ -57,6 +57,8 @@ impl<'a> Checker<'a> {
         } else {
             match name {
                 "faces" => error.hint("say of which mesh: `forall f in faces S`"),
+                "edges" => error.hint("each edge once: `forall p in S forall q in p { if (p < q) continue; … }`"),
+                "M_PI" => error.fix("write `pi`", span, "pi"),
                 "infinity" | "INFINITY" | "inf" | "INF" | "DBL_MAX" | "Infinity" => {
                     error.hint("write `1.0 / 0.0`, a `double`; ints have none")
                 }
@@ -128,6 +130,10 @@ impl<'a> Checker<'a> {
             self.report(error);
             return;
         }
+        if let Some(instead) = written(name) {
+            self.report(error.hint(instead));
+            return;
+        }
         let own: Vec<&str> = self.signatures.iter().map(|s| s.name).collect();
         let builtins = Builtin::all().map(|b| -> &str { b.name() });
         let names = own.into_iter().chain(builtins);
@@ -195,6 +201,30 @@ impl<'a> Checker<'a> {
         self.searches_left.set(left.saturating_sub(1));
         left > 0
     }
+}
+
+/// How vv writes what is a function elsewhere.
+fn written(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "lerp" | "mix" => "write `a + t * (b - a)`",
+        "radians" => "write `x * pi / 180.0`",
+        "degrees" => "write `x * 180.0 / pi`",
+        "sign" | "sgn" => "write `x < 0.0 ? -1.0 : 1.0`",
+        "rand" | "drand48" => "write `random()`, in [0, 1), or `random(low, high)`",
+        "norm" | "mag" | "magnitude" => "write `length(v)`",
+        "dist" => "write `distance(a, b)`",
+        "normalized" | "unit" => "write `normalize(v)`",
+        "merge" => "it is a statement: `merge S with T;`",
+        "add" => "it is a statement: `add v to S;`",
+        "remove" => "it is a statement: `remove v from S;`",
+        "erase" => "it is a statement: `erase x from v;`",
+        "replace" => "it is a statement: `replace a with x in v;`",
+        "splice" => "it is a statement: `splice x after a in v;`",
+        "make" => "it is a statement: `make {a, b, c} nb_of v;`",
+        "foreach" => "write `forall p in S`",
+        "assert" => "write `if (!condition) print \"…\";`",
+        _ => return None,
+    })
 }
 
 /// The file that comes with vv and has a function of this name.

@@ -266,7 +266,13 @@ impl<'t> Parser<'t> {
             (Kind::Word, "in" | "is") if matches!(earlier, "nextto" | "prevto" | "is") => {
                 diagnostic.hint(format!("name a vertex between `{earlier}` and `in`"))
             }
-            (Kind::Word, "in") => diagnostic.hint("membership is asked with `is x in v`"),
+            (Kind::Word, "is") if self.word_at(self.at + 1) == "null" => {
+                diagnostic.fix("compare with `==`", here, "==")
+            }
+            (Kind::Word, "in" | "is") => diagnostic.hint("membership is asked with `is x in v`"),
+            (Kind::Word, "not") if self.word_at(self.at + 1) == "in" => {
+                diagnostic.hint("membership is asked with `is x in v`, and `!is x in v` denies it")
+            }
             (Kind::Word, "nb" | "nb_of") => {
                 diagnostic.hint("the ring of a vertex is set with `make {a, b, c} nb_of v`")
             }

@@ -139,15 +139,30 @@ impl Parser<'_> {
             }
         } else if self.kind() == Kind::Word && matches!(self.word_at(open + 1), "nb" | "nb_of" | "of" | "to" | "in") {
             let mut ring = self.unary();
+            if self.say_list_comes_first() {
+                return StmtKind::Empty;
+            }
             let of = self.second(&mut ring, "nb_of", "`make r nb_of v`").expr;
             return StmtKind::MakeRing { ring: ring.expr, of };
         } else {
             let message = format!("expected `{{` after `make`, found {}", self.found());
             self.fail(Diagnostic::error(self.here(), message).hint("write `make {a, b, c} nb_of v`"));
         }
+        self.say_list_comes_first();
         let list = Expr { kind: ExprKind::Error, span: self.since(open) };
         let of = self.second(&mut Tall { expr: list, height: 1 }, "nb_of", "`make {a, b, c} nb_of v`").expr;
         StmtKind::Make { items, of }
+    }
+
+    /// `make v nb_of {a, b}` the wrong way round, or with two lists.
+    fn say_list_comes_first(&mut self) -> bool {
+        let behind = self.at + if self.word() == "nb" { 2 } else { 1 };
+        let is_list = !self.panicking && self.at_infix("nb_of") && self.kind_at(behind) == Kind::OpenBrace;
+        if is_list {
+            let error = Diagnostic::error(self.span_at(behind), "one vertex stands here, and the list before it");
+            self.fail(error.hint("write `make {a, b, c} nb_of v`"));
+        }
+        is_list
     }
 
     /// `print a, "b";` and `print(a, "b");`

@@ -453,14 +453,22 @@ impl Parser<'_> {
                     }
                     self.bump();
                     if !dollar && self.kind() == Kind::OpenParen {
-                        let owner = self.source(begin);
+                        let owner = self.source(of.expr.span);
+                        let end = self.behind_parentheses(self.at).map_or(self.here(), |behind| self.span_at(behind - 1));
+                        let inside = Span { start: self.here().end, end: end.start.max(self.here().end), ..begin };
+                        let arguments = self.source(inside).trim();
+                        let own = matches!(owner, "Math" | "math" | "std");
+                        let all = [owner, arguments].into_iter().skip(usize::from(own)).filter(|text| !text.is_empty());
+                        let all = all.collect::<Vec<_>>().join(", ");
                         let error = Diagnostic::error(name.span, "vv has no functions that belong to values");
                         self.fail(error.hint(match name.text.as_str() {
                             "add" | "push" | "push_back" | "append" | "insert" => format!("write `add v to {owner};`"),
+                            "length" | "norm" | "magnitude" if owner.contains('$') => format!("write `length({owner})`"),
+                            "normalized" | "normalized_copy" => format!("write `normalize({owner})`"),
                             "size" | "length" | "count" => format!(
                                 "`valence {owner}` counts the vertices of a ring, `forall v in {owner} n += 1;` those of a mesh"
                             ),
-                            other => format!("if there is such a function, write `{other}({owner})`"),
+                            other => format!("if there is such a function, write `{other}({all})`"),
                         }));
                         return self.error_expression();
                     }

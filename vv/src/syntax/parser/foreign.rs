@@ -47,10 +47,13 @@ impl Parser<'_> {
             "cout" | "cerr" | "printf" => words::foreign_construct(qualified),
             "" => {
                 let always = matches!(word, "switch" | "catch" | "throw" | "goto" | "assert" | "printf" | "foreach");
+                // `foreach(v);` may be a call of a function of that name.
+                let over = |behind| self.kind_at(behind) == Kind::Semicolon;
+                let is_call = matches!(word, "foreach" | "assert") && self.behind_parentheses(start + 1).is_some_and(over);
                 let begins = match next {
                     Kind::Word => !self.token(start + 1).new_line,
                     Kind::OpenBrace | Kind::Foreign | Kind::Less => true,
-                    Kind::OpenParen => always,
+                    Kind::OpenParen => always && !is_call,
                     _ => false,
                 };
                 words::foreign_construct(word).filter(|_| begins)
@@ -77,6 +80,7 @@ impl Parser<'_> {
         {
             let error = Diagnostic::error(span, format!("`{word} (…) {{` begins no statement"));
             self.fail(match words::similar(word, ["if", "while", "for", "forall"]) {
+                _ if matches!(word, "elif" | "elsif" | "elseif") => error.fix("write `else if`", span, "else if"),
                 Some(meant) => error.fix(format!("did you mean `{meant}`?"), span, meant),
                 None => error,
             });

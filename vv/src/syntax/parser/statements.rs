@@ -168,7 +168,8 @@ impl Parser<'_> {
             self.end_statement();
             return StmtKind::Declare(declaration);
         }
-        if self.kind_at(start + 1) == Kind::Word || matches!(word, "make" | "switch" | "struct" | "try") {
+        let next = self.kind_at(start + 1);
+        if matches!(next, Kind::Word | Kind::Text) || matches!(word, "make" | "switch" | "struct" | "try") {
             word = self.corrected(word);
         }
         self.algebra(word).unwrap_or_else(|| self.foreign())

@@ -112,5 +112,5 @@ fn constants() {
 
 #[test]
 fn steps() {
-    check("void f(mesh S) { synchronize S; }", "void f(mesh& S) { synchronize S; }");
+    check("void f(mesh S) { forall p in S print p; }", "void f(mesh& S) { forall p in S print p; }");
 }

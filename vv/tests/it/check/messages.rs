@@ -1,6 +1,8 @@
 //! Values and statements: programs with what is said of them below their lines.
 
-use super::check;
+use vv::diagnostic::Severity;
+
+use super::{check, compiled};
 
 #[test]
 fn fractions_do_not_get_lost_without_a_word() {
@@ -331,6 +333,38 @@ vec offset(vertex p) {
 }
 ",
     );
+}
+
+#[test]
+fn old_values_that_nothing_reads() {
+    check(
+        r"
+void smooth(mesh& S) {
+  synchronize S;
+//^^^^^^^^^^^^^^ warning: nothing reads the old values that this makes
+  forall p in S forall q in p p$pos = q$pos;
+}
+void other(mesh& S) { synchronize S; forall p in S p$pos = `p$pos; }
+",
+    );
+    check(
+        r#"
+#include "host.vv"
+vec vertex_point(vertex p) { return p$pos; }
+void f(mesh& S) { refine(S); }
+"#,
+    );
+    check(
+        r"
+void f(mesh& S) {
+  synchronize S;
+  forall p in S print `p$age;
+//                       ^^^ error: vertices have no property `age`
+}
+",
+    );
+    let unread = compiled("void f(mesh& S) { synchronize S; forall p in S print `; }");
+    assert!(unread.diagnostics.iter().all(|d| d.severity == Severity::Error), "{:?}", unread.diagnostics);
 }
 
 #[test]

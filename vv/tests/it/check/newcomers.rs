@@ -114,3 +114,63 @@ fn loops_and_numbers_of_other_languages() {
     check_statement("i = inf; print i;", "`inf` is not declared", "ints have none");
     check_statement("print infinity();", "there is no function `infinity`", "`1.0 / 0.0`");
 }
+
+#[test]
+fn functions_of_other_languages() {
+    for (call, name, hint) in [
+        ("n = mix(n, n, 0.5);", "mix", "`a + t * (b - a)`"),
+        ("print cos(radians(i));", "radians", "`x * pi / 180.0`"),
+        ("print sign(n.x);", "sign", "`x < 0.0 ? -1.0 : 1.0`"),
+        ("print rand();", "rand", "`random()`"),
+        ("print norm(n);", "norm", "`length(v)`"),
+        ("merge(S, S);", "merge", "`merge S with T;`"),
+        ("assert(i == 3);", "assert", "`if (!condition) print"),
+    ] {
+        check_statement(call, &format!("there is no function `{name}`"), hint);
+    }
+    check_statement("print M_PI;", "`M_PI` is not declared", "write `pi`");
+    check_statement("forall e in edges print e;", "`edges` is not declared", "if (p < q) continue;");
+    check_statement("n = vec(1, 2);", "`vec` does not take (int, int)", "`vec(x, y, 0)`");
+    check_statement("print max(i, 2, 3);", "`max` does not take (int, int, int)", "`max(a, max(b, c))`");
+    check_statement("print length(i);", "`length` does not take (int)", "`abs(x)`");
+    check_statement("print length(n, n);", "`length` does not take (vec, vec)", "`distance(a, b)`");
+}
+
+#[test]
+fn functions_that_belong_to_values() {
+    let message = "vv has no functions that belong to values";
+    check_statement("print p$pos.length();", message, "write `length(p$pos)`");
+    check_statement("print n.dot(2.0 * n);", message, "write `dot(n, 2.0 * n)`");
+    check_statement("print n.dot();", message, "write `dot(n)`");
+    check_statement("print Math.sqrt(n.x);", message, "write `sqrt(n.x)`");
+    check_statement("print n.normalized();", message, "write `normalize(n)`");
+    check_statement("print n.dot(2.0", message, "write `dot(n");
+}
+
+#[test]
+fn functions_whose_names_are_words_of_others() {
+    let own = |call: &str| format!("void foreach(vertex p) {{ }} void assert(bool b) {{ }} step {{ {call} }}");
+    let found = compiled(&own("forall p in S foreach(p); assert(true);")).diagnostics;
+    assert!(found.is_empty(), "{found:?}");
+    let message = "vv loops over sets and rings with `forall`";
+    check(&own("foreach (p in S) print p;"), message, "write `forall p in S`");
+    check(&own("foreach (vertex p : S) { print p; }"), message, "write `forall p in S`");
+}
+
+#[test]
+fn rings_and_sets_that_are_mixed_up() {
+    check_statement("remove p from p;", "this is a `vertex`, not a `mesh`", "write `erase p from p;`");
+    check_statement("add p to p;", "this is a `vertex`, not a `mesh`", "`splice p after a in p;`");
+    let message = "one vertex stands here, and the list before it";
+    check_statement("make p nb_of {p};", message, "write `make {a, b, c} nb_of v`");
+    check_statement("make {p} nb of {p};", message, "write `make {a, b, c} nb_of v`");
+}
+
+#[test]
+fn questions_in_other_words() {
+    check_statement("if (p is in S) print p;", "expected `)`, found `is`", "`is x in v`");
+    check_statement("if (p not in S) print p;", "expected `)`, found `not`", "`!is x in v` denies it");
+    check_statement("if (p is null) print p;", "expected `)`, found `is`", "compare with `==`");
+    check_statement("elif (i == 3) { print p; }", "`elif (…) {` begins no statement", "write `else if`");
+    check_statement("Print \"p\";", "unknown word `Print`", "did you mean `print`?");
+}

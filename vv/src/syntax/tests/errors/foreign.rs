@@ -146,7 +146,7 @@ fn foreign_statements() {
       //^^^^^ error: vv has no exceptions | every error ends the step and leaves the mesh as it was before
         goto end;
       //^^^^ error: vv has no `goto` | leave loops with `break` or `return`
-        assert(x);
+        assert x;
       //^^^^^^ error: vv has no `assert` | write `if (!condition) print "…";`
     "#,
     );
