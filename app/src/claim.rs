@@ -77,11 +77,43 @@ impl Claim {
 }
 
 /// Words before a kind of mesh that say it is what the rule is given; before what it makes others stand.
-const GIVEN: [&str; 6] = ["of", "for", "from", "on", "any", "all"];
+const GIVEN: [&str; 20] = [
+    "of",
+    "for",
+    "from",
+    "on",
+    "any",
+    "all",
+    "take",
+    "takes",
+    "need",
+    "needs",
+    "want",
+    "wants",
+    "expect",
+    "expects",
+    "require",
+    "requires",
+    "assume",
+    "assumes",
+    "refines",
+    "subdivides",
+];
+/// Words that may stand between.
+const ARTICLES: [&str; 5] = ["a", "an", "the", "each", "every"];
 /// Words after a kind of mesh that say the rule is given more than that.
 const MORE: [&str; 4] = ["and", "or", "as", "but"];
 /// Words that deny what comes after them in a sentence.
 const DENIAL: [&str; 5] = ["not", "no", "never", "cannot", "nor"];
+
+/// How many corners the faces of a mesh have that is called so.
+fn corners_of(word: &str) -> Option<usize> {
+    match word {
+        "triangle" | "triangular" | "triangulated" => Some(3),
+        "quad" | "quadrilateral" | "quadrangular" => Some(4),
+        _ => None,
+    }
+}
 
 fn read(comment: &str) -> Option<Claim> {
     let text = comment.to_lowercase();
@@ -89,21 +121,21 @@ fn read(comment: &str) -> Option<Claim> {
     let ends_sentence = |word: &&str| word.ends_with(['.', ':', ';']);
     let (mut faces, mut closed) = (Vec::new(), false);
     for (i, word) in words.iter().enumerate().filter(|(_, word)| word.starts_with("mesh")) {
-        let corners = match words[..i] {
-            [.., "triangle"] => Some(3),
-            [.., "quad"] => Some(4),
-            _ => None,
-        };
+        let corners = i.checked_sub(1).and_then(|before| corners_of(words[before]));
         let before = &words[..i - usize::from(corners.is_some())];
         let is_closed = before.last() == Some(&"closed");
         let before = &before[..before.len() - usize::from(is_closed)];
-        let given = before.last().is_none_or(|word| GIVEN.contains(word) || ends_sentence(word));
+        let given = match before {
+            [] => true,
+            [.., word, article] if ARTICLES.contains(article) => GIVEN.contains(word),
+            [.., word] => GIVEN.contains(word) || ends_sentence(word),
+        };
         if !given || before.iter().rev().take_while(|word| !ends_sentence(word)).any(|word| DENIAL.contains(word)) {
             continue;
         }
         let next = words.get(i + 1).unwrap_or(&"");
         let more = !word.ends_with(|c: char| c.is_ascii_punctuation()) && MORE.contains(next);
-        let list = word.ends_with(',') && ["triangle", "quad"].contains(next);
+        let list = word.ends_with(',') && corners_of(next).is_some();
         let any = corners.is_none() && !is_closed && matches!(before.last(), Some(&("any" | "all")));
         if more || list || any {
             return None;
@@ -151,6 +183,25 @@ mod tests {
         check(&of("For any mesh, best on triangle meshes."), "a", None);
         check(&of("Not for triangle meshes."), "a", None);
         check(&of("Does not stop on closed meshes: for triangle meshes."), "a", program);
+        check(&of("Smooth triangular meshes."), "a", None);
+        check(&of("Triangular meshes, open or closed."), "a", program);
+        check(&of("Takes a triangle mesh."), "a", program);
+        check(&of("It needs triangulated meshes."), "a", program);
+        check(&of("Makes a quad mesh from a triangle mesh."), "a", program);
+        check(&of("Does not need a triangle mesh."), "a", None);
+        check(&of("Subdivides every quadrilateral mesh."), "a", Some(("the program", Some(4), false)));
+        check("/* Loop 1987.\n * Of triangle meshes. */\n\nvoid a(mesh& S) { }\n", "a", program);
+        let own = "/* Any polygons. */\nvoid a(mesh& S) { }\n\n  /* For quad\n     meshes. */\nvoid b(mesh& S) { }\n";
+        check(own, "b", Some(("`b`", Some(4), false)));
+        check(own, "a", None);
+        let code = "param int k = 2; /* of triangle meshes */\nvoid a(mesh& S) { print k; }\n";
+        check(code, "a", None);
+        check("// For quad meshes. */\nvoid a(mesh& S) { }\n", "a", Some(("the program", Some(4), false)));
+        check(
+            "/* For quad meshes. */\n\nint f() { return 1; } // */\n\nvoid a(mesh& S) { }\n",
+            "a",
+            Some(("the program", Some(4), false)),
+        );
         check("// Of triangle meshes.\nstep { }\n", "step", Some(("the program", Some(3), false)));
     }
 }

@@ -215,7 +215,7 @@ pub fn main() -> ExitCode {
     let began = Instant::now();
     let result = match Cli::try_parse() {
         Ok(cli) => carry_out(cli, began),
-        Err(answer) => shell::explain(&answer),
+        Err(answer) => open::misplaced().unwrap_or_else(|| shell::explain(&answer)),
     };
     result.map_or_else(|exit| ExitCode::from(exit as u8), |()| ExitCode::SUCCESS)
 }

@@ -192,7 +192,11 @@ impl Includes {
         }
         if path.symlink_metadata().is_err_and(|e| matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)) {
             return library::include(wanted).ok_or_else(|| {
-                format!("there is no file `{}`, and vv ships with no program of this name", path.display())
+                let why = match library::nearly(Path::new(wanted)) {
+                    Some(shipped) => format!("but `{shipped}` comes with vv"),
+                    None => "and vv ships with no program of this name".to_owned(),
+                };
+                format!("there is no file `{}`, {why}", path.display())
             });
         }
         let text = match unsaved(&path) {

@@ -131,6 +131,10 @@ pub fn exhibit(program: &str) -> Option<&'static Exhibit> {
 /// The first comment of a program, in one line.
 #[must_use]
 pub fn headline(text: &str) -> String {
+    let text = text.trim_start();
+    if let Some((inside, _)) = text.strip_prefix("/*").and_then(|text| text.split_once("*/")) {
+        return vv::assist::block_comment(inside);
+    }
     let lines = text.lines().map(str::trim).take_while(|line| line.starts_with("//"));
     lines.map(|line| line.trim_start_matches('/').trim()).collect::<Vec<_>>().join(" ")
 }
@@ -184,6 +188,7 @@ mod tests {
         assert_eq!(line("Kobbelt 2000, Figs. 3 and 7: it is. And more."), "it is");
         assert_eq!(line("A shoot: it grows. It does."), "A shoot: it grows");
         assert_eq!(headline("// One\n//  two.\nvoid f(mesh& S) { } // three"), "One two.");
+        assert_eq!(headline("\n/* One\n * two.\n */\nvoid f(mesh& S) { }"), "One two.");
         for exhibit in EXHIBITS {
             assert!(line(&exhibit.headline()).len() > 15, "{}", exhibit.program);
         }

@@ -1,5 +1,7 @@
 //! The programs and meshes that ship with vv, in the binary.
 
+use std::path::Path;
+
 use vv::Included;
 
 /// A text that ships with vv.
@@ -93,6 +95,14 @@ pub fn program(name: &str) -> Option<&'static Shipped> {
     PROGRAMS.iter().find(|p| p.name == name)
 }
 
+/// The name of the program that is probably meant by one that none has: folder, case and extension may be others.
+#[must_use]
+pub fn nearly(path: &Path) -> Option<&'static str> {
+    let name = path.file_name()?.to_str()?.to_lowercase();
+    let mut names = PROGRAMS.iter().map(|program| program.name);
+    names.find(|shipped| shipped.strip_suffix(".vv") == Some(name.strip_suffix(".vv").unwrap_or(&name)))
+}
+
 /// The program of a name as an include; diagnostics call it `<vv>/name`.
 #[must_use]
 pub fn include(name: &str) -> Option<Included> {
@@ -102,7 +112,6 @@ pub fn include(name: &str) -> Option<Included> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
 
     #[track_caller]
     fn holds_all_of(folder: &str, table: &[Shipped]) {

@@ -16,7 +16,7 @@ use crate::syntax::tree::Element;
 use crate::syntax::{TokenClass, highlight, parse};
 
 pub use number::{Number, number_at};
-pub use symbols::{Symbol, SymbolKind, comment_before};
+pub use symbols::{Symbol, SymbolKind, block_comment, comment_before};
 pub use words::{WORDS, Word};
 
 /// What is known of a text.

@@ -51,8 +51,8 @@ pub fn check(sources: Arc<Sources>, files: &[(FileId, Ast)], sound: bool) -> (Pr
     checker.declare_functions(files);
     checker.declare_globals(files);
     let functions = checker.define_functions();
-    checker.look_at_calls(sound);
     checker.look_at_parallel_loops(&functions);
+    checker.look_at_calls(sound);
     checker.warn_of_copied_mesh();
     let program = Program {
         rules: checker.rules.clone(),

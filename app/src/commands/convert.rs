@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use app::evaluation::within;
+use app::files;
 use clap::Args;
 use vv::mesh::faces::faces;
 
@@ -18,6 +19,9 @@ use super::{EXIT_CODES, Exit, Importing, Reporting, error, fail, input, output};
 pub struct Arguments {
     /// The mesh; `-` is stdin, in any format.
     mesh: PathBuf,
+    /// What is no option and no mesh to read: the output, where `-o` was forgotten.
+    #[arg(hide = true)]
+    others: Vec<PathBuf>,
     #[command(flatten)]
     output: OutputArguments,
     #[command(flatten)]
@@ -31,6 +35,11 @@ pub struct Arguments {
 /// Writes all outputs or none.
 pub fn convert(arguments: &Arguments) -> Result<(), Exit> {
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
+    if let Some(other) = arguments.others.first() {
+        let name = files::shown(other);
+        let diagnostic = error(format!("`vv mesh convert` reads one mesh, and {name} is one file more"));
+        return fail(&reporter, Exit::Usage, diagnostic.hint(format!("to write it: `-o {name}`")));
+    }
     if arguments.output.output.is_empty() {
         return fail(&reporter, Exit::Usage, error("nothing says where to write").hint("add `-o FILE`"));
     }

@@ -33,7 +33,7 @@ pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Di
         reporter.report(&[Diagnostic::new(Severity::Note, None, said)], &Sources::default());
         return compiled(&Path::new(NOWHERE).join(shipped.name), shipped.text, reporter);
     }
-    let text = files::read_program(path).map_err(|error| match nearly_shipped(path) {
+    let text = files::read_program(path).map_err(|error| match library::nearly(path).filter(|_| is_free(path)) {
         Some(name) => {
             reporter.report(&[error.located().hint(format!("`{name}` comes with vv"))], &Sources::default());
             Exit::File
@@ -46,14 +46,6 @@ pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Di
 /// The program that comes with vv and is meant by a path that is a name only, and that nothing has.
 fn shipped(path: &Path) -> Option<&'static Shipped> {
     path.to_str().filter(|_| is_free(path)).and_then(library::program)
-}
-
-/// The name of the program that comes with vv and may be meant by a path that nothing has: folder, case and extension may
-/// be others.
-fn nearly_shipped(path: &Path) -> Option<&'static str> {
-    let name = path.file_name()?.to_str().filter(|_| is_free(path))?.to_lowercase();
-    let mut names = library::PROGRAMS.iter().map(|program| program.name);
-    names.find(|shipped| shipped.strip_suffix(".vv") == Some(name.strip_suffix(".vv").unwrap_or(&name)))
 }
 
 fn is_free(path: &Path) -> bool {

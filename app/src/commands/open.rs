@@ -93,10 +93,26 @@ fn unknown(path: &Path) -> Diagnostic {
         error(format!("`{shown}` is neither a program (.vv) nor a project (.vvp) nor a mesh nor a command"));
     let command = Cli::command();
     let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    if is_of_meshes(&shown) {
+        return diagnostic.hint(format!("the command is `vv mesh {shown}`"));
+    }
     match closest(&shown, names.iter().copied().chain(["help"])) {
         Some(command) => diagnostic.hint(format!("did you mean `vv {command}`?")),
         None => diagnostic.hint(format!("the commands are `{}`; `vv --help` explains them", names.join("`, `"))),
     }
+}
+
+/// Whether this is a command of `vv mesh`.
+fn is_of_meshes(word: &str) -> bool {
+    let command = Cli::command();
+    command.find_subcommand("mesh").is_some_and(|mesh| mesh.find_subcommand(word).is_some())
+}
+
+/// Refuses a command line that begins with a command of `vv mesh`; `None` if it does not.
+pub fn misplaced() -> Option<Result<(), Exit>> {
+    let first = std::env::args_os().nth(1)?;
+    let is_meant = first.to_str().is_some_and(is_of_meshes);
+    is_meant.then(|| fail(&Reporter::new(DiagnosticFormat::Human), Exit::Usage, unknown(Path::new(&first))))
 }
 
 /// Why there can be no window, if that is known in advance. What it asks for is what winit opens at run time: without

@@ -28,8 +28,11 @@ Examples:
 pub struct Arguments {
     /// The meshes; `-` is stdin, in any format. Several stand side by side, or `{name}` in the names of outputs is that
     /// of each.
-    #[arg(required = true, value_name = "MESH")]
+    #[arg(required_unless_present = "input", value_name = "MESH")]
     meshes: Vec<PathBuf>,
+    /// A mesh, as `vv run` takes it.
+    #[arg(short, long, hide = true)]
+    input: Vec<PathBuf>,
     /// Go around the mesh in N pictures: `{frame}` in their names is the number of each, from 0; a .gif holds them all.
     #[arg(long, value_name = "N", value_parser = count("the number of pictures", 2..=3600u32))]
     turntable: Option<u32>,
@@ -46,7 +49,7 @@ pub struct Arguments {
 /// Draws: what `vv run` makes of meshes when it does nothing to them.
 pub fn render(arguments: Arguments, began: Instant) -> Result<(), Exit> {
     let reporter = Reporter::new(arguments.reporting.diagnostic_format);
-    let Arguments { meshes, turntable, output, look, importing, reporting } = arguments;
+    let Arguments { meshes, input, turntable, output, look, importing, reporting } = arguments;
     if output.output.is_empty() {
         return fail(&reporter, Exit::Usage, error("nothing says where to draw").hint("add `-o FILE`"));
     }
@@ -54,6 +57,7 @@ pub fn render(arguments: Arguments, began: Instant) -> Result<(), Exit> {
         let diagnostic = error(format!("`-o {}` is a mesh and no picture", mesh.path().display()));
         return fail(&reporter, Exit::Usage, diagnostic.hint("`vv mesh convert` writes meshes"));
     }
+    let meshes = [meshes, input].concat();
     let run = run::Arguments::still(meshes, turntable, output, look, importing, reporting);
     run::run(&run, began)
 }

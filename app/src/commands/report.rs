@@ -106,6 +106,8 @@ pub struct Printer {
     progress: ProgressBar,
     error: Option<io::Error>,
     closed: bool,
+    /// Whether anything was printed.
+    used: bool,
 }
 
 impl Printer {
@@ -116,7 +118,14 @@ impl Printer {
         } else {
             (Box::new(io::stdout()), io::stdout().is_terminal())
         };
-        Self { to: BufWriter::new(to), watched, progress: reporter.progress.clone(), error: None, closed: false }
+        Self {
+            to: BufWriter::new(to),
+            watched,
+            progress: reporter.progress.clone(),
+            error: None,
+            closed: false,
+            used: false,
+        }
     }
 
     /// Sends on what was printed so far.
@@ -136,6 +145,11 @@ impl Printer {
         }
     }
 
+    /// Whether anything was printed.
+    pub fn is_used(&self) -> bool {
+        self.used
+    }
+
     /// Nobody listens any more.
     pub fn close(&mut self) {
         self.closed = true;
@@ -149,6 +163,7 @@ impl Printer {
 
 impl Output for Printer {
     fn print(&mut self, line: &str) -> Result<(), OutputClosed> {
+        self.used = true;
         let Self { to, watched, progress, .. } = self;
         let mut write = || {
             to.write_all(line.as_bytes())?;

@@ -296,6 +296,9 @@ fn run_reported(arguments: &Arguments, began: Instant, way: &Way, reporter: &Rep
         return fail(reporter, Exit::Usage, error("`--reference` compares one result, and here are several"));
     }
     checks::not_read(&plan, arguments, &program, way.watched).map_err(usage)?;
+    if arguments.summary.is_none() {
+        reporter.report(Vec::from_iter(plan.unshown()).as_slice(), &Sources::default());
+    }
     output::check_places(&plan.all_targets(), reporter)?;
     if plan.all_targets().iter().any(|target| target.figure().is_some()) {
         look.warn_of_figures(reporter);
@@ -395,7 +398,17 @@ impl Run<'_> {
             picture::in_one_range(exhibits.values_mut(), self.shot.look);
             result = result.and(self.sheets(&exhibits).and_then(|sheets| self.commit(sheets, &mut tally)));
         }
+        if result.is_ok() && !self.is_asked_for_anything() && !printer.is_used() {
+            let note = Diagnostic::new(Severity::Note, None, "nothing is printed and nothing written");
+            let note = note.hint("`-o FILE` writes the mesh or a picture of it, `--summary json` what it has");
+            self.reporter.report(&[note], &Sources::default());
+        }
         result.map(|()| tally)
+    }
+
+    fn is_asked_for_anything(&self) -> bool {
+        let Arguments { output, summary, reference, .. } = self.arguments;
+        !output.output.is_empty() || summary.is_some() || reference.is_some() || self.way.watched
     }
 
     fn commit(&self, prepared: Vec<Prepared>, tally: &mut Tally) -> Result<(), Exit> {

@@ -223,10 +223,24 @@ pub fn comment_before(text: &str, start: usize) -> String {
     let before = text.get(..start).unwrap_or_default();
     let line = before.rfind('\n').map_or(0, |i| i + 1);
     let above = before[..line].lines().rev().map(str::trim);
+    if above.clone().next().is_some_and(|last| last.ends_with("*/") && !last.starts_with("//")) {
+        let block = before[..line].trim_end().strip_suffix("*/").unwrap_or_default();
+        let opening = block.rfind("/*").unwrap_or_default();
+        // One that ends a line of code is about that line.
+        let is_alone = block[..opening].rsplit('\n').next().is_none_or(|before| before.trim().is_empty());
+        return if is_alone { block_comment(block[opening..].trim_start_matches("/*")) } else { String::new() };
+    }
     let mut lines: Vec<&str> =
         above.take_while(|line| line.starts_with("//")).map(|line| line.trim_start_matches('/').trim()).collect();
     lines.reverse();
     lines.join(" ")
+}
+
+/// What stands between `/*` and `*/` in one line, without the stars that lines begin with.
+#[must_use]
+pub fn block_comment(inside: &str) -> String {
+    let lines = inside.lines().map(|line| line.trim().trim_start_matches('*').trim());
+    lines.filter(|line| !line.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 fn range(span: Span) -> Range<usize> {

@@ -1,7 +1,7 @@
 //! What a file cannot hold of a mesh: said when it is written.
 
 use super::{Format, color, gltf, obj, ply};
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::mesh::{Mesh, Property, Type, Value, Values};
 
 /// Most names that are said of one kind.
@@ -36,7 +36,8 @@ enum Why {
     Name,
 }
 
-/// Warnings: one for each kind of thing and reason. What has nothing but its default is no loss.
+/// One for each kind of thing and reason: a warning, or a note of what a program keeps in the mesh. What has nothing but its
+/// default is no loss.
 pub(super) fn losses(mesh: &Mesh, format: Format) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     for of in [Of::Vertices, Of::Edges, Of::Whole] {
@@ -177,8 +178,13 @@ fn warning(of: Of, why: Why, names: &[&str], format: Format, in_gltf: bool) -> D
         Why::Name => format!("{names} for something else in {files}"),
         Why::Vertices => "no format holds vertices as values".to_owned(),
     };
-    let warning = super::warning(format!("{what} of {of} {is} not written: {because}"));
+    // What a program keeps in the mesh is for its own next steps; seldom is the file stepped.
+    let severity = if of == Of::Whole.name() { Severity::Note } else { Severity::Warning };
+    let warning = Diagnostic::new(severity, None, format!("{what} of {of} {is} not written: {because}"));
     match why {
+        Why::Format if severity == Severity::Note => {
+            warning.hint(format!("who goes on from the file begins without; `.ply` files keep {it}"))
+        }
         Why::Format if in_gltf => warning.hint(format!("`.ply` and `.glb` files keep {it}")),
         Why::Format => warning.hint(format!("`.ply` files keep {it}")),
         Why::Name => warning.hint("another name would be kept"),

@@ -7,6 +7,7 @@ use app::files;
 use vv::diagnostic::Diagnostic;
 use vv::ir::{FunctionId, Program};
 
+use super::super::output::Target;
 use super::super::{Exit, closest, error, fail, list};
 use super::plan::{self, Plan};
 use super::{Arguments, Reporter};
@@ -40,7 +41,9 @@ pub fn not_read(plan: &Plan, arguments: &Arguments, program: &Program, watched: 
     let results = arguments.input.iter().chain(&arguments.reference).filter(|_| watched);
     let given = [&arguments.program].into_iter().chain(view.as_ref()).chain(arguments.look.files()).chain(results);
     let read: BTreeSet<_> = given.cloned().chain(included).map(|path| files::place(&path)).collect();
-    match plan.all_targets().iter().find(|target| read.contains(&files::place(target.path()))) {
+    // `-` is read at one end and written at the other.
+    let is_file = |target: &&Target| !files::is_standard_stream(target.path());
+    match plan.all_targets().iter().filter(is_file).find(|target| read.contains(&files::place(target.path()))) {
         Some(both) => {
             let message = format!("{} is read here, so it is not written", both.path().display());
             Err(Box::new(error(message)))

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use vv::diagnostic::Diagnostic;
+use vv::diagnostic::{Diagnostic, Severity};
 
 use super::cases::{Case, Cases};
 use super::names::{FRAME, GENERATION, INPUT, Name};
@@ -164,6 +164,16 @@ impl Plan {
             Some(listed) => listed.binary_search(&generation).is_ok(),
             None => true,
         }
+    }
+
+    /// A warning if generations are asked for, and all outputs hold the last one alone.
+    pub fn unshown(&self) -> Option<Diagnostic> {
+        let several = self.generations.as_ref().is_some_and(|all| all.len() > 1);
+        let holds_last = |(name, target): &(Name, Target)| !target.is_shown() && !name.has(GENERATION);
+        let (first, _) = self.outputs.first().filter(|_| several && self.outputs.iter().all(holds_last))?;
+        let message = format!("`-o {}` holds generation {} alone", first.path().display(), self.steps);
+        let warning = Diagnostic::new(Severity::Warning, None, message);
+        Some(warning.hint("put `{n}` into its name to write each of them"))
     }
 
     /// What distinguishes this run from the others; `None` if it is the only one.

@@ -10,7 +10,7 @@ fn an_endless_loop_runs_out_of_time() {
 #[test]
 fn each_step_has_the_whole_time() {
     let text = "void step(mesh& S) { for (int i = 0; i < 20000; i++) { } }\n";
-    check_file("p.vv", text, "run p.vv -i square.off -n 40 --timeout 20", 0, "");
+    check_file("p.vv", text, "run p.vv -i square.off -n 40 --timeout 20 -o a.off", 0, "");
 }
 
 #[test]

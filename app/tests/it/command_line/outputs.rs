@@ -53,6 +53,13 @@ fn what_a_format_has_no_place_for_is_said_once_for_all_files() {
     folder.check("run grow.vv -i octahedron.obj -o a.ply", 0, "");
     folder.check("mesh convert a.ply -o b.off", 0, &said.replace("stl", "off"));
     folder.check("mesh convert a.ply -o b.glb", 0, "");
+    // Those of the mesh are for the next steps of the program.
+    let program = "mesh { int age; };\nvoid step(mesh& S) { S$age += 1; }\n";
+    let said = "note: `age` of the mesh is not written: `.obj` files have no place for it\n\
+                help: who goes on from the file begins without; `.ply` files keep it";
+    let folder = Folder::with(&[("grow.vv", program)]);
+    folder.check("run grow.vv -i octahedron.obj -o a.obj", 0, said);
+    folder.check("run grow.vv -i octahedron.obj -o a.ply", 0, "");
 }
 
 /// As the shell's `<(…)` gives it.

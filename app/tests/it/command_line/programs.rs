@@ -18,15 +18,17 @@ fn a_rule_that_is_not_for_the_faces_it_meets_is_warned_of_once_and_named_where_i
             &format!("warning: {one}\nthis was in step 1 of 2 of `\n`triangulate(S)` of edits.vv makes triangles"),
         );
         assert_eq!(warned.stderr.matches("is for").count(), 1, "{}", warned.stderr);
-        folder.check(&format!("run {assets}/programs/{program}.vv -i square.off"), 0, "");
+        folder.check(&format!("run {assets}/programs/{program}.vv -i square.off -o a.ply"), 0, "");
     }
     for (program, mesh, rest) in [
-        ("sqrt3", "torus-quads", says("triangle meshes", "72 of the 72 faces are none: v")),
         ("paper-sqrt3", "torus-quads", says("closed triangle meshes", "72 of the 72 faces are none: v")),
         ("paper-loop", "cube-open", says("closed triangle meshes", "the mesh is open: null has no position")),
     ] {
         folder.check(&format!("run {assets}/programs/{program}.vv -i {assets}/meshes/{mesh}.obj"), 1, &rest);
     }
+    let quads =
+        says("triangle meshes", "72 of the 72 faces are none") + "\nneighbours do not name the vertex that names them";
+    folder.check(&format!("run {assets}/programs/sqrt3.vv -i {assets}/meshes/torus-quads.obj"), 0, &quads);
     let summary = folder.check(&format!("run {assets}/programs/loop.vv -i house.off --summary json"), 0, &one).stdout;
     assert_eq!(json(&summary)["warnings"][0], one);
     // What a rule says of itself comes before what its program says.
@@ -40,7 +42,25 @@ fn a_rule_that_is_not_for_the_faces_it_meets_is_warned_of_once_and_named_where_i
     folder.check(&format!("{limit} catmull_clark_limit"), 0, quads);
     // It is none of a program's business that says nothing.
     fs::write(folder.path("still.vv"), "// Of meshes.\nvoid step(mesh& S) { }\n").unwrap();
-    folder.check("run still.vv -i house.off", 0, "");
+    folder.check("run still.vv -i house.off", 0, "note: nothing is printed and nothing written\n`-o FILE`");
+    folder.check("run still.vv -i house.off -o out.off", 0, "");
+}
+
+#[test]
+fn a_program_comes_from_stdin_while_the_result_goes_to_stdout() {
+    let folder = Folder::with(&[]);
+    let ended = folder.run_with_stdin("run - -i octahedron.obj -o - --format obj", MOVE);
+    assert_eq!((ended.code, vertices(&ended.stdout)[..1].to_vec()), (Some(0), vec!["2 0 0"]), "{}", ended.stderr);
+}
+
+#[test]
+fn a_file_that_is_included_by_nearly_the_name_of_one_that_comes_with_vv() {
+    for near in ["Loop.vv", "loop", "lib/LOOP.vv"] {
+        let said = format!("there is no file `{near}`, but `loop.vv` comes with vv");
+        check_file("p.vv", &format!("#include \"{near}\"\n"), "check p.vv", 1, &said);
+    }
+    let said = "there is no file `none.vv`, and vv ships with no program of this name";
+    check_file("p.vv", "#include \"none.vv\"\n", "check p.vv", 1, said);
 }
 
 #[test]

@@ -86,3 +86,27 @@ fn shells_and_man_know_the_commands() {
     assert!(folder.read("vv.1").contains("Exit codes"));
     folder.check("man nowhere", 3, "there is no directory `nowhere`");
 }
+
+#[test]
+fn commands_of_meshes_without_their_first_word() {
+    for (arguments, command) in
+        [("info octahedron.obj", "info"), ("convert octahedron.obj -o a.off", "convert"), ("diff a.obj b.obj", "diff")]
+    {
+        check(arguments, 2, &format!("nor a command\nthe command is `vv mesh {command}`"));
+    }
+}
+
+#[test]
+fn outputs_and_inputs_as_other_commands_take_them() {
+    check("mesh convert octahedron.obj new.off", 2, "new.off is one file more\nto write it: `-o new.off`");
+    check("render -i octahedron.obj -o new.svg", 0, "");
+}
+
+#[test]
+fn generations_that_no_output_has_a_place_for() {
+    let said = "warning: `-o a.obj` holds generation 2 alone\nput `{n}` into its name to write each of them";
+    check("run move.vv -i octahedron.obj --generations 0-2 -o a.obj", 0, said);
+    check("run move.vv -i octahedron.obj --generations 2 -o a.obj", 0, "");
+    check("run move.vv -i octahedron.obj --generations 0-2 -o a.obj -o a_{n}.obj", 0, "");
+    check("run move.vv -i octahedron.obj --generations 0-2 -o a.obj -o a.svg", 0, "");
+}

@@ -454,7 +454,8 @@ impl Parser<'_> {
                     self.bump();
                     if !dollar && self.kind() == Kind::OpenParen {
                         let owner = self.source(of.expr.span);
-                        let end = self.behind_parentheses(self.at).map_or(self.here(), |behind| self.span_at(behind - 1));
+                        let end =
+                            self.behind_parentheses(self.at).map_or(self.here(), |behind| self.span_at(behind - 1));
                         let inside = Span { start: self.here().end, end: end.start.max(self.here().end), ..begin };
                         let arguments = self.source(inside).trim();
                         let own = matches!(owner, "Math" | "math" | "std");

@@ -49,7 +49,8 @@ impl Parser<'_> {
                 let always = matches!(word, "switch" | "catch" | "throw" | "goto" | "assert" | "printf" | "foreach");
                 // `foreach(v);` may be a call of a function of that name.
                 let over = |behind| self.kind_at(behind) == Kind::Semicolon;
-                let is_call = matches!(word, "foreach" | "assert") && self.behind_parentheses(start + 1).is_some_and(over);
+                let is_call =
+                    matches!(word, "foreach" | "assert") && self.behind_parentheses(start + 1).is_some_and(over);
                 let begins = match next {
                     Kind::Word => !self.token(start + 1).new_line,
                     Kind::OpenBrace | Kind::Foreign | Kind::Less => true,
