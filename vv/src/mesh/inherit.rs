@@ -9,8 +9,9 @@ use crate::stop::{Stop, Stopped};
 /// Gives the vertices that came after the first `old` what their neighbours have, for the vertex properties of these
 /// indices: of doubles and vectors the mean, of all else, which may be a label, that of the oldest. First the neighbours of
 /// old vertices, then the neighbours of those, and so on; a neighbour is who names the vertex, and of the old ones also whom
-/// it names. So the middle of an edge lies between its ends, and a corner of Doo and Sabin's, whom only the ring of the old
-/// one names, is like that; what hangs together with nothing old stays as it is.
+/// it names. So the middle of an edge lies between its ends. Who comes of one old vertex that is in the set no more, as a
+/// corner of Doo and Sabin's, gets the mean of that and the corners beside it: else all of one old vertex would be alike
+/// for ever. What hangs together with nothing old stays as it is.
 ///
 /// To be called before the mesh is [closed](super::close::close), which forgets vertices. Cost: O(n log n) in the new
 /// vertices and their neighbours, nothing without properties.
@@ -26,6 +27,7 @@ pub fn inherit(mesh: &mut Mesh, old: usize, properties: &[usize], stop: &Stop) -
     known[..old].fill(true);
     // Whom they name: what they have goes there.
     let mut givers: Vec<Vertex> = mesh.vertices().take(old).collect();
+    let mut corners: Vec<Vertex> = Vec::new();
     let mut pairs: Vec<(Vertex, Vertex)> = Vec::new();
     for x in mesh.vertices().skip(old) {
         stop.check()?;
@@ -50,8 +52,27 @@ pub fn inherit(mesh: &mut Mesh, old: usize, properties: &[usize], stop: &Stop) -
             }
             known[x.index()] = true;
             givers.push(x);
+            if let [(_, only)] = pairs
+                && only.index() < old
+                && !mesh.set.contains(*only)
+            {
+                corners.push(x);
+            }
         }
         pairs.clear();
+    }
+    for &property in properties {
+        let beside = |x| mesh.ring(x).vertices().filter(|v| v.index() >= old);
+        let around = |x| std::iter::once(x).chain(beside(x)).filter(|v| known[v.index()]);
+        let mixed = |x: &Vertex| match common(around(*x).filter_map(|v| mesh.vertex_value(property, v)))? {
+            value @ (Value::Double(_) | Value::Vec(_)) => Some((*x, value)),
+            _ => None,
+        };
+        stop.check()?;
+        let values: Vec<(Vertex, Value)> = corners.iter().filter_map(mixed).collect();
+        for (x, value) in values {
+            mesh.set_vertex_value(property, x, value);
+        }
     }
     Ok(())
 }

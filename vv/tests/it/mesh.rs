@@ -136,7 +136,11 @@ fn a_ring_is_quoted_once() {
 /// The first `old` vertices have 1, 2, 4, 8, … as a double, 1, 2, 3, … as an int, all others 0 and 0.
 #[track_caller]
 fn check_inherited(rings: &str, old: usize, expected: &str) {
-    let mut mesh = mesh(rings);
+    inherited(mesh(rings), old, expected);
+}
+
+#[track_caller]
+fn inherited(mut mesh: Mesh, old: usize, expected: &str) {
     let number = mesh.declare_vertex_property("number", Value::Double(0.0));
     let label = mesh.declare_vertex_property("label", Value::Int(0));
     let other = mesh.declare_vertex_property("other", Value::Int(0));
@@ -164,6 +168,17 @@ fn new_vertices_inherit_means_and_the_labels_of_the_oldest() {
     // Whom only the old one names, and who only names it; and what both are told.
     check_inherited("1: 3, 2:, 3:, 4: 2, 5: 1 2", 2, "1/1 2/2 1.5/1");
     check_inherited("1: 2, 2: 1", 2, "");
+}
+
+/// 1 and 2 go; 3 and 4 are corners of the one, 5 of the other, 6 is between them.
+#[test]
+fn corners_of_vertices_that_go_lie_between_them_and_the_corners_beside_them() {
+    let rings = "1: 3 4, 2: 5, 3: 1 4 5, 4: 1 3, 5: 2 3, 6: 1 2";
+    check_inherited(rings, 2, "1/1 1/1 2/2 1.5/1");
+    let mut gone = mesh(rings);
+    gone.set.remove(vertex(1));
+    gone.set.remove(vertex(2));
+    inherited(gone, 2, "1.3333333333333333/1 1/1 1.5/2 1.5/1");
 }
 
 #[test]
