@@ -12,6 +12,10 @@
 //! A stop is asked for at every round of a loop and at every call: a load and a branch that is never taken, one to two per
 //! cent of a step of the paper's Loop listing. Loops round one ring without loops and calls in them are over too soon to
 //! ask, but for what they leave to the runtime, which takes longer where rings are long: that asks.
+//!
+//! The rounds of a parallel loop are a function of their own, to which the values of variables from outside are handed. All
+//! cores do some of them each where there are many, each with a copy of the context: what the runtime does then only
+//! reads, so that nothing has to wait. A loop whose rounds declare rings, or walk sets or faces, is run in turn.
 
 mod ahead;
 mod context;

@@ -1,16 +1,20 @@
 //! Parallel loops give the same on any number of threads.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
+use glam::{DVec3, dvec3};
 use rayon::ThreadPoolBuilder;
 use vv::builtins::Random;
 use vv::engine::{Engine, Failure, FailureKind, Machine, Settings};
 use vv::io::{Format, ReadOptions, read};
+use vv::ir::FunctionId;
 use vv::mesh::Mesh;
-use vv::stop::Stopped;
+use vv::mesh::build::{Polygons, build};
+use vv::stop::{Stop, Stopped};
 
 use super::programs::PARALLEL;
 use super::{assets, compile_text, state, wheel};
@@ -18,13 +22,22 @@ use crate::run::OCTAHEDRON;
 
 const THREADS: [usize; 3] = [1, 2, 7];
 
-/// A step on so many threads.
-fn step(text: &str, engine: Engine, mesh: &Mesh, threads: usize, settings: &Settings) -> Result<Mesh, Failure> {
-    let program = compile_text(text);
-    let machine = Machine::new(Arc::clone(&program), engine);
-    assert_eq!(machine.engine(), engine);
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    pool.install(|| machine.run(program.default_rule().unwrap(), mesh, 1, settings, &mut Vec::new()))
+/// A program under an engine.
+struct Runner(Machine, FunctionId);
+
+impl Runner {
+    fn new(text: &str, engine: Engine) -> Self {
+        let program = compile_text(text);
+        let machine = Machine::new(Arc::clone(&program), engine);
+        assert_eq!(machine.engine(), engine);
+        Self(machine, program.default_rule().unwrap())
+    }
+
+    /// A step on so many threads.
+    fn step(&self, mesh: &Mesh, threads: usize, settings: &Settings) -> Result<Mesh, Failure> {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| self.0.run(self.1, mesh, 1, settings, &mut Vec::new()))
+    }
 }
 
 fn start(text: &str) -> Mesh {
@@ -35,32 +48,60 @@ fn start(text: &str) -> Mesh {
 
 /// All threads end as the interpreter does.
 #[track_caller]
-fn check(text: &str, mesh: &Mesh) -> Result<Mesh, Failure> {
-    let interpreted = step(text, Engine::Interpret, mesh, 1, &Settings::default());
-    for threads in THREADS {
-        let compiled = step(text, Engine::Native, mesh, threads, &Settings::default());
-        match (&interpreted, &compiled) {
-            (Ok(a), Ok(b)) => assert_eq!(state(a), state(b), "{threads} threads"),
-            (Err(a), Err(b)) => assert_eq!((a.kind, &a.diagnostic), (b.kind, &b.diagnostic), "{threads} threads"),
-            _ => panic!("{threads} threads: {interpreted:?}, {compiled:?}"),
+fn check(text: &str, meshes: &[Mesh]) -> Result<(), Failure> {
+    let [interpreter, native] = [Engine::Interpret, Engine::Native].map(|engine| Runner::new(text, engine));
+    for mesh in meshes {
+        let interpreted = interpreter.step(mesh, 1, &Settings::default());
+        for threads in THREADS {
+            let compiled = native.step(mesh, threads, &Settings::default());
+            match (&interpreted, &compiled) {
+                (Ok(a), Ok(b)) => assert_eq!(state(a), state(b), "{threads} threads"),
+                (Err(a), Err(b)) => assert_eq!((a.kind, &a.diagnostic), (b.kind, &b.diagnostic), "{threads} threads"),
+                _ => panic!("{threads} threads: {interpreted:?}, {compiled:?}"),
+            }
         }
+        interpreted?;
     }
-    interpreted
+    Ok(())
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    // A vertex whose ring is long, with and without values of edges.
-    for text in [PARALLEL.to_owned(), PARALLEL.replace("edge { double s = 2; };", "").replace(" + (p|q)$s", "")] {
-        let text = format!("{}{text}", wheel(40));
-        check(&text, &start(&text)).unwrap();
-        for path in assets("meshes", "obj") {
-            let mesh = read(&std::fs::read(&path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0;
-            if mesh.vertex_count() < 400 {
-                check(&text, &mesh).unwrap();
-            }
+    let small = assets("meshes", "obj").into_iter().filter_map(|path| {
+        let mesh = read(&std::fs::read(&path).unwrap(), Format::Obj, &ReadOptions::default()).unwrap().0;
+        (mesh.vertex_count() < 200).then_some(mesh)
+    });
+    let mut meshes: Vec<Mesh> = small.collect();
+    // A vertex whose ring is long.
+    meshes.push(start(&format!("{}{PARALLEL}", wheel(40))));
+    check(PARALLEL, &meshes).unwrap();
+    // Other code finds its way in rings where there are no values of edges.
+    check(&PARALLEL.replace("edge { double s = 2; };", "").replace(" + (p|q)$s", ""), &meshes).unwrap();
+}
+
+/// A cone, its base open: rings of four, three and many.
+fn cone(rim: u32, rows: u32) -> Mesh {
+    let point = |i: u32, row: u32| {
+        let (sin, cos) = (TAU * f64::from(i) / f64::from(rim)).sin_cos();
+        f64::from(row + 1) * dvec3(cos, sin, -1.0)
+    };
+    let mut polygons = Polygons::new((0..rows).flat_map(|row| (0..rim).map(move |i| point(i, row))).collect());
+    let top = polygons.positions.len() as u32;
+    polygons.positions.push(DVec3::ZERO);
+    for i in 0..rim {
+        let next = (i + 1) % rim;
+        polygons.push([top, i, next], None).unwrap();
+        for row in (0..rows - 1).map(|row| row * rim) {
+            polygons.push([row + i, row + rim + i, row + rim + next, row + next], None).unwrap();
         }
     }
+    build(polygons, true, &Stop::new()).unwrap().0
+}
+
+/// So many that other threads are woken, whatever the build.
+#[test]
+fn large_meshes_give_the_same_bits() {
+    check(PARALLEL, &[cone(80, 80)]).unwrap();
 }
 
 /// A program around a loop over the vertices of an octahedron, whose numbers are 0 to 5.
@@ -81,7 +122,7 @@ void step(mesh& S) {{
 #[track_caller]
 fn check_fails(round: &str, message: &str) {
     let text = with_numbers(round);
-    let failure = check(&text, &start(&text)).unwrap_err();
+    let failure = check(&text, &[start(&text)]).unwrap_err();
     assert_eq!(failure.diagnostic.message, message);
 }
 
@@ -96,7 +137,7 @@ fn an_error_in_a_round_is_that_of_the_first_in_turn() {
 #[test]
 fn calls_may_be_as_deep_as_elsewhere() {
     let text = with_numbers("p$x = deep(9900 + p$n);");
-    check(&text, &start(&text)).unwrap();
+    check(&text, &[start(&text)]).unwrap();
 }
 
 #[test]
@@ -109,7 +150,7 @@ fn rounds_that_never_end_are_given_up_when_one_before_them_fails() {
 fn a_stop_ends_all_rounds() {
     for round in ["while (true) p$x += 1;", "endless(p);", "if (p$n > 3) endless(p);"] {
         let text = with_numbers(round);
-        let start = start(&text);
+        let (native, start) = (Runner::new(&text, Engine::Native), start(&text));
         for threads in THREADS {
             let settings = Settings::default();
             let stop = settings.stop.clone();
@@ -117,7 +158,7 @@ fn a_stop_ends_all_rounds() {
                 thread::sleep(Duration::from_millis(50));
                 stop.request(Stopped::ByTime);
             });
-            let failure = step(&text, Engine::Native, &start, threads, &settings).unwrap_err();
+            let failure = native.step(&start, threads, &settings).unwrap_err();
             stopper.join().unwrap();
             assert_eq!(failure.kind, FailureKind::Stopped(Stopped::ByTime));
             let span = failure.diagnostic.span.unwrap();

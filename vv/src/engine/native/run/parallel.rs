@@ -8,10 +8,10 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterato
 use super::{Context, RUNTIME_STACK, Run, STACK, status};
 
 /// Loops of fewer rounds are over before other threads have begun. Tests, whose meshes are small, wake them for any.
-const FEWEST: usize = if cfg!(debug_assertions) { 2 } else { 1 << 11 };
+const FEWEST: usize = if cfg!(debug_assertions) { 2 } else { 1 << 12 };
 
 /// What a thread takes at once has so many rounds at least.
-const PART: usize = if cfg!(debug_assertions) { 1 } else { 1 << 9 };
+const PART: usize = if cfg!(debug_assertions) { 1 } else { 1 << 10 };
 
 /// So many parts for each thread: one that is late, as the machine has other work, does fewer.
 const PARTS: usize = 4;

@@ -90,15 +90,24 @@ impl Translator<'_, '_> {
         self.unit.sites.len() as u32 - 1
     }
 
-    /// Asks whether the run shall stop.
+    /// Asks whether the run shall stop, and in rounds of a parallel loop whether others have made it give up.
     pub(super) fn poll(&mut self, span: Span) {
+        self.poll_for(span, self.watches);
+    }
+
+    /// Asks whether the run shall stop, in a loop that comes to its end: others that have made it give up can wait for that.
+    pub(super) fn poll_in_walk(&mut self, span: Span) {
+        self.poll_for(span, false);
+    }
+
+    fn poll_for(&mut self, span: Span, watches: bool) {
         let flag = self.load_context(types::I64, context::STOP);
         // Another thread writes it, which the code generator does not know: where nothing is stored in between, it takes an
         // earlier load of the same place for this one. So each goes by an address of its own; x86 folds it away.
         let place = self.unit.sites.len() as i32;
         let base = self.b.ins().iadd_imm_s(flag, -i64::from(place));
         let mut stop = self.b.ins().load(types::I8, MemFlagsData::trusted(), base, place);
-        if self.watches {
+        if watches {
             let flag = self.load_context(types::I64, context::OVER);
             let base = self.b.ins().iadd_imm_s(flag, -i64::from(place));
             let over = self.b.ins().load(types::I8, MemFlagsData::trusted(), base, place);

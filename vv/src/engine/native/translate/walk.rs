@@ -382,7 +382,7 @@ impl<'p> Translator<'_, 'p> {
         }
         learn(self, &sides);
         if !brief {
-            self.poll(span);
+            self.poll_in_walk(span);
         }
         for (local, &(x, _)) in std::iter::once(local).chain(follower).zip(&sides) {
             self.define_local(local, Val::One(x))?;
