@@ -46,14 +46,25 @@ fn start(text: &str) -> Mesh {
     machine.run(program.start.unwrap(), &Mesh::new(), 0, &Settings::default(), &mut Vec::new()).unwrap()
 }
 
+fn stop_after(time: Duration, stop: &Stop) {
+    let stop = stop.clone();
+    thread::spawn(move || {
+        thread::sleep(time);
+        stop.request(Stopped::ByTime);
+    });
+}
+
 /// All threads end as the interpreter does.
 #[track_caller]
 fn check(text: &str, meshes: &[Mesh]) -> Result<(), Failure> {
     let [interpreter, native] = [Engine::Interpret, Engine::Native].map(|engine| Runner::new(text, engine));
+    // Rounds that never end shall fail a test, not keep it.
+    let settings = Settings::default();
+    stop_after(Duration::from_secs(60), &settings.stop);
     for mesh in meshes {
-        let interpreted = interpreter.step(mesh, 1, &Settings::default());
+        let interpreted = interpreter.step(mesh, 1, &settings);
         for threads in THREADS {
-            let compiled = native.step(mesh, threads, &Settings::default());
+            let compiled = native.step(mesh, threads, &settings);
             match (&interpreted, &compiled) {
                 (Ok(a), Ok(b)) => assert_eq!(state(a), state(b), "{threads} threads"),
                 (Err(a), Err(b)) => assert_eq!((a.kind, &a.diagnostic), (b.kind, &b.diagnostic), "{threads} threads"),
@@ -153,13 +164,8 @@ fn a_stop_ends_all_rounds() {
         let (native, start) = (Runner::new(&text, Engine::Native), start(&text));
         for threads in THREADS {
             let settings = Settings::default();
-            let stop = settings.stop.clone();
-            let stopper = thread::spawn(move || {
-                thread::sleep(Duration::from_millis(50));
-                stop.request(Stopped::ByTime);
-            });
+            stop_after(Duration::from_millis(50), &settings.stop);
             let failure = native.step(&start, threads, &settings).unwrap_err();
-            stopper.join().unwrap();
             assert_eq!(failure.kind, FailureKind::Stopped(Stopped::ByTime));
             let span = failure.diagnostic.span.unwrap();
             assert_eq!(&text[span.start as usize..span.end as usize], "S");
