@@ -18,8 +18,7 @@
 @group(1) @binding(1) var<storage, read> edges: array<vec2<u32>>;
 
 const PULL = 0.5; // points
-const GONE_AT = 2.5; // pixels between lines
-const FULL_AT = 16.0;
+const FULL_AT = 16.0; // points between lines
 
 struct Varying {
     @builtin(position) position: vec4<f32>,
@@ -76,7 +75,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     var color = layer.strong_line;
     if !strong {
         let apart = spacing(ends, a, b, 0.5 * (p.w + q.w)) / frame.scale;
-        let room = smoothstep(GONE_AT, FULL_AT, apart);
+        let room = smoothstep(layer.gone_at, FULL_AT, apart);
         let opacity = max(sqrt(room), layer.faintest);
         if opacity <= 0.0 {
             return out;

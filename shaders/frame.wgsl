@@ -51,6 +51,8 @@ struct Layer {
     lonely_count: u32, // vertices before this one have no edges
     opacity: f32,
     faintest: f32, // opacity of lines that crowd
+    gone_at: f32, // points between lines below which they are not drawn
+    dots: vec2<f32>, // points that points are large from which on they begin to be seen, and are fully
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

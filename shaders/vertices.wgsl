@@ -34,7 +34,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
         let facing = abs(dot(n, normalize(frame.eye - position)));
         size = min(size, ROOM * layer.spacing * max(facing, 0.35) / (frame.pixel * p.w));
     }
-    let opacity = smoothstep(0.7, 2.5, size / frame.scale) * layer.opacity;
+    let opacity = smoothstep(layer.dots.x, layer.dots.y, size / frame.scale) * layer.opacity;
     if opacity <= 0.0 {
         return out;
     }

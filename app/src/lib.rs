@@ -2,6 +2,7 @@
 
 pub mod alike;
 pub mod annotate;
+pub mod brought;
 pub mod camera;
 pub mod claim;
 pub mod command;

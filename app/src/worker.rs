@@ -114,6 +114,8 @@ pub enum Event {
     MeshRead {
         /// What was repaired; an error if it could not be read.
         diagnostics: Vec<Diagnostic>,
+        /// What it says and the program cannot hold.
+        lost: Vec<Diagnostic>,
     },
     /// A generation is being computed.
     Stepping(u64),

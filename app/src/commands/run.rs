@@ -1,6 +1,5 @@
 //! `vv run`
 
-mod brought;
 mod cases;
 pub(super) mod checks;
 mod names;
@@ -15,6 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use app::brought;
 use app::evaluation::{Halt, machine_limits};
 use app::files::{self, Prepared};
 use clap::{Args, ValueEnum};

@@ -150,8 +150,9 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The width of the lines of a class, thinner than by default where they would black out what they lie on: inner lines by
-/// how short they are, outlines by how much of the picture they cover. In steps, so that figures side by side share theirs.
+/// The width of the lines of a class, thinner than by default where they would black out what they lie on: inner lines
+/// and the control mesh by how short they are, outlines by how much of the picture they cover. In steps, so that figures side by
+/// side share theirs.
 fn light(class: Class, line: Line, pieces: &[[DVec3; 2]], at: impl Fn(DVec2) -> DVec2) -> f64 {
     const STEP: f64 = 0.05;
     // Who has chosen a width means it.
@@ -161,7 +162,7 @@ fn light(class: Class, line: Line, pieces: &[[DVec3; 2]], at: impl Fn(DVec2) -> 
     let ends = || pieces.iter().map(|[a, b]| [at(a.xy()), at(b.xy())]);
     let mut lengths: Vec<f64> = ends().map(|[a, b]| a.distance(b)).collect();
     let most = match class {
-        Class::Inner | Class::Hidden => {
+        Class::Inner | Class::Hidden | Class::Control => {
             let middle = lengths.len() / 2;
             0.07 * *lengths.select_nth_unstable_by(middle, f64::total_cmp).1
         }
@@ -170,7 +171,6 @@ fn light(class: Class, line: Line, pieces: &[[DVec3; 2]], at: impl Fn(DVec2) -> 
             let (low, high) = ends().flatten().fold(nowhere, |(low, high), p| (low.min(p), high.max(p)));
             0.12 * (high - low).element_product() / lengths.iter().sum::<f64>()
         }
-        Class::Control => line.width,
     };
     // What lies in a line covers nothing.
     if most > 0.0 { ((most / STEP).ceil() * STEP).clamp(STEP, line.width) } else { line.width }

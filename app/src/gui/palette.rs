@@ -106,14 +106,18 @@ impl Keys {
 /// What fits, best first; of equals, and while nothing is typed, in the order of the menus.
 fn found(session: &Session, query: &str) -> Vec<(Match, Entry)> {
     let fits = |mut entry: Entry| {
-        let also = entry.command.also();
-        let (called, known) = (find(query, &entry.label), find_also(query, &entry.label, also));
+        // Who remembers the menu finds what stands in it.
+        let also = format!("{} {}", entry.command.also(), entry.group.to_lowercase());
+        let (called, known) = (find(query, &entry.label), find_also(query, &entry.label, &also));
         // Letters scattered over a name are meant less than another word for it.
         if known.as_ref().map(|m| m.score) > called.as_ref().map(|m| m.score) {
             let typed = query.to_lowercase();
             let typed: Vec<&str> = typed.split_whitespace().collect();
-            let meant = also.split(' ').filter(|word| typed.iter().any(|typed| word.starts_with(typed)));
-            entry.tooltip = format!("{}: {}", meant.collect::<Vec<_>>().join(", "), entry.tooltip);
+            let meant = also.split_whitespace().filter(|word| typed.iter().any(|typed| word.starts_with(typed)));
+            let meant = meant.filter(|word| *word != entry.group.to_lowercase()).collect::<Vec<_>>().join(", ");
+            if !meant.is_empty() {
+                entry.tooltip = format!("{meant}: {}", entry.tooltip);
+            }
             return Some((known?, entry));
         }
         Some((called?, entry))

@@ -93,6 +93,9 @@ pub(super) struct Layer {
     lonely_count: u32,
     opacity: f32,
     faintest: f32,
+    gone_at: f32,
+    padding: f32,
+    dots: [f32; 2],
 }
 
 /// How many layers there are: the mesh, the control mesh, what of the control mesh lies behind faces, and arrows.
@@ -113,8 +116,13 @@ const ARROW_WIDTH: f32 = 1.4;
 const ARROW_HEAD: f32 = 8.0;
 /// Opacity of crowded lines where there is nothing but lines.
 const FAINTEST: f32 = 0.15;
-/// As in `shaders/edges.wgsl`: points between lines below which they are not drawn.
-const GONE_AT: f64 = 2.5;
+/// Points between lines below which they are not drawn.
+const GONE_AT: f32 = 2.5;
+/// The same of the control mesh, which lies on what it is shown for: crowded, it would hide the surface.
+const CONTROL_GONE_AT: f32 = 7.0;
+/// Points that vertices are large from which on they begin to be seen, and are fully.
+const DOTS: [f32; 2] = [0.7, 2.5];
+const CONTROL_DOTS: [f32; 2] = [2.5, 5.0];
 
 /// With `encode` the shaders turn light into sRGB, because the target does not.
 pub(super) fn frame(
@@ -233,6 +241,9 @@ pub(super) fn layers(scene: &Uploaded, style: &Style, arrow: f32, scale: f32) ->
         lonely_count: scene.mesh.as_ref().map_or(0, |p| p.lonely_count),
         opacity: 1.0,
         faintest: if style.faces { 0.0 } else { FAINTEST },
+        gone_at: GONE_AT,
+        padding: 0.0,
+        dots: DOTS,
     };
     let color = linear(palette.control);
     let control = Layer {
@@ -244,6 +255,8 @@ pub(super) fn layers(scene: &Uploaded, style: &Style, arrow: f32, scale: f32) ->
         spacing: spacing(&scene.control),
         strong_from: scene.control.as_ref().map_or(0, |p| p.inner_edge_count),
         lonely_count: scene.control.as_ref().map_or(0, |p| p.lonely_count),
+        gone_at: CONTROL_GONE_AT,
+        dots: CONTROL_DOTS,
         ..mesh
     };
     let arrows = Layer {
@@ -316,7 +329,7 @@ fn first_edge(scene: &Uploaded, part: &PartBuffers, camera: &Camera, style: &Sty
         false => (camera.eye().distance(bounds.center) - bounds.radius).max(camera.near()),
     } / scene.unit;
     let longest = f64::from(part.longest_inner_edge) / (nearest * pixel(camera, picture) * f64::from(picture.scale));
-    if longest < GONE_AT { part.inner_edge_count } else { 0 }
+    if longest < f64::from(GONE_AT) { part.inner_edge_count } else { 0 }
 }
 
 /// Length of a pixel at distance 1.

@@ -174,7 +174,10 @@ impl Session {
                 self.watch_files();
                 self.suit_mesh();
             }
-            Event::MeshRead { diagnostics } => self.problems.mesh_read(&request.recipe.mesh.name(), diagnostics),
+            Event::MeshRead { diagnostics, lost } => {
+                let sources = self.program.as_ref().map(|program| Arc::clone(&program.sources)).unwrap_or_default();
+                self.problems.mesh_read(&request.recipe.mesh.name(), &diagnostics, &lost, &sources);
+            }
             Event::Stepping(generation) => running.stepping = Some(generation),
             Event::Preview(frame) => self.show(frame, None),
             Event::Finished(frame) => {

@@ -91,11 +91,13 @@ impl Problems {
         self.written.clear();
     }
 
-    pub(super) fn mesh_read(&mut self, name: &str, diagnostics: Vec<Diagnostic>) {
-        self.mesh = located(&diagnostics, &Sources::default(), Some(0));
+    /// `lost` is what the mesh says and the program cannot hold; `sources` are the program's.
+    pub(super) fn mesh_read(&mut self, name: &str, diagnostics: &[Diagnostic], lost: &[Diagnostic], sources: &Sources) {
+        self.mesh = located(diagnostics, &Sources::default(), Some(0));
         for problem in &mut self.mesh {
             problem.diagnostic.message = format!("{name}: {}", problem.diagnostic.message);
         }
+        self.mesh.extend(located(lost, sources, None));
     }
 
     pub(super) fn ran(&mut self, diagnostics: &[Diagnostic], sources: &Arc<Sources>, generation: u64) {

@@ -24,7 +24,7 @@ use crate::annotate::Quantity;
 use crate::document::MeshSource;
 use crate::evaluation::{self, Generation};
 use crate::inspect::findings::Findings;
-use crate::{files, library, trace};
+use crate::{brought, files, library, trace};
 
 /// Of a step that does nothing that one could see.
 const IDLE: &str = "the step changed nothing";
@@ -149,7 +149,10 @@ impl Bench {
         self.report(ticket, Event::Compiled { compilation, files });
         self.read(recipe, stop)?;
         let input = self.input.as_ref().ok_or_else(said_before)?;
-        self.report(ticket, Event::MeshRead { diagnostics: input.diagnostics.clone() });
+        let is_file = matches!(recipe.mesh, MeshSource::File(_) | MeshSource::BuiltIn(_));
+        let both = machine.as_ref().zip(input.mesh.as_ref()).filter(|_| is_file);
+        let lost = both.map(|(machine, mesh)| brought::lost(machine.program(), mesh)).unwrap_or_default();
+        self.report(ticket, Event::MeshRead { diagnostics: input.diagnostics.clone(), lost });
         let Some(mesh) = input.mesh.clone() else {
             return Err(Failed::said_before(FailureKind::Program, 0));
         };

@@ -62,6 +62,8 @@ fn the_palette_knows_other_words_for_commands() {
         ("settings", "Preferences…"),
         ("shortcuts", "Keys…"),
         ("planarity", "Mesh problems"),
+        ("compare", "Side by side"),
+        ("help keys", "Keys…"),
     ] {
         open_palette(&mut window);
         type_into(&mut window, "Find a command", typed);

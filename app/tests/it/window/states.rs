@@ -387,3 +387,23 @@ fn positions_that_cannot_be_drawn_are_told_in_place_of_the_mesh() {
     click(&mut window, "Step");
     window.get_by_label(said);
 }
+
+#[test]
+fn what_the_mesh_file_says_and_the_program_cannot_hold_is_warned_of_at_its_declaration() {
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+               property double heat\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+               0 0 0 1.5\n2 0 0 2\n0 2 0 3\n3 0 1 2\n";
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("c.ply");
+    std::fs::write(&mesh, ply).unwrap();
+    let mut window = open(Some(&mesh), None);
+    let warned = |window: &Harness<'static, App>| -> Vec<String> {
+        window.state().session().problems().iter().map(app::session::Problem::to_text).collect()
+    };
+    write(&mut window, "vertex { int heat; };\nvoid f(mesh& S) { }\n");
+    let [warning] = &warned(&window)[..] else { panic!("{:?}", warned(&window)) };
+    let message = "1:14: warning: `heat` of vertices is `double` in the mesh file and `int` in the program";
+    assert!(warning.contains(message) && warning.contains("hint: `double heat;` keeps"), "{warning}");
+    write(&mut window, "vertex { double heat; };\nvoid f(mesh& S) { }\n");
+    assert_eq!(warned(&window), [""; 0]);
+}

@@ -6,6 +6,7 @@ use vv::ir::{Program, PropertyDeclaration};
 use vv::mesh::{Mesh, Values};
 
 /// A warning for each property of a program that cannot hold what the mesh has by its name, so that it begins as declared.
+#[must_use]
 pub fn lost(program: &Program, mesh: &Mesh) -> Vec<Diagnostic> {
     let vertices = mesh.vertex_properties().iter().map(|p| (p.name.as_str(), p.values.clone()));
     let edges = mesh.edge_properties().iter().map(|p| (p.name.as_str(), p.values.clone()));
