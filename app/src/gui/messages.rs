@@ -10,6 +10,10 @@ use crate::command::{Command, Inspect};
 use crate::inspect::findings::Findings;
 use crate::session::{Problem, Session};
 
+/// Width of the button that copies, and of what looks for lines.
+const COPY: f32 = 48.0;
+const FILTER: f32 = 60.0;
+
 /// The panel's own state: which part is shown.
 #[derive(Default)]
 pub struct Messages {
@@ -37,8 +41,10 @@ impl Messages {
         egui::Frame::NONE.inner_margin(theme::beside_bar()).show(ui, |ui| {
             ui.horizontal(|ui| {
                 let all = problems.iter().count();
-                let title = if all == 0 { "Problems".to_owned() } else { format!("Problems ({all})") };
-                let mut title = RichText::new(title);
+                let (wrong, found) = found_in_mesh(session);
+                let counts = [("Problems", all), ("Mesh", found), ("Console", lines)];
+                let ([of_problems, of_mesh, of_console], room) = titles(ui, counts);
+                let mut title = RichText::new(of_problems);
                 if errors + warnings > 0 {
                     let worst = if errors > 0 { Severity::Error } else { Severity::Warning };
                     title = title.color(theme::severity(ui.visuals(), worst));
@@ -49,25 +55,28 @@ impl Messages {
                     self.console = false;
                     commands.extend(listing.then(|| list.clone()));
                 }
-                let title = mesh_title(ui, session);
+                let mut title = RichText::new(of_mesh);
+                if wrong > 0 {
+                    title = title.color(theme::severity(ui.visuals(), Severity::Warning));
+                }
                 if tab(ui, listing, title, "Mesh").clicked() && !listing {
                     commands.push(list.clone());
                 }
-                let title = if lines == 0 { "Console".to_owned() } else { format!("Console ({lines})") };
-                if tab(ui, self.console && !listing, title, "Console").clicked() {
+                if tab(ui, self.console && !listing, of_console, "Console").clicked() {
                     self.console = true;
                     commands.extend(listing.then_some(list));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let (count, what) =
                         if self.console { (lines, "copy all lines") } else { (all, "copy all messages") };
-                    if !listing && count > 0 && ui.small_button("Copy").on_hover_text(what).clicked() {
+                    let copies = !listing && count > 0 && room > COPY;
+                    if copies && ui.small_button("Copy").on_hover_text(what).clicked() {
                         ui.ctx().copy_text(match self.console {
                             true => printed::all(session, generation),
                             false => all_texts(session),
                         });
                     }
-                    if self.console && !listing && count > 0 {
+                    if self.console && copies && room > COPY + FILTER {
                         self.printed.field(ui);
                     }
                 });
@@ -84,16 +93,36 @@ impl Messages {
     }
 }
 
-/// How much is wrong with the mesh.
-fn mesh_title(ui: &Ui, session: &Session) -> RichText {
+/// What is wrong with the mesh, and all that is said of it.
+fn found_in_mesh(session: &Session) -> (usize, usize) {
     let findings = session.frame().and_then(|frame| frame.findings.get());
-    match findings.map(Findings::counts) {
-        None | Some((_, 0)) => RichText::new("Mesh"),
-        Some((wrong, all)) => {
-            let title = RichText::new(format!("Mesh ({})", grouped(all)));
-            if wrong > 0 { title.color(theme::severity(ui.visuals(), Severity::Warning)) } else { title }
+    findings.map_or((0, 0), Findings::counts)
+}
+
+/// What is written on the tabs, with as many counts as there is room for, and how much room is left. Makes `ui` narrow where
+/// there is little.
+fn titles(ui: &mut Ui, counts: [(&str, usize); 3]) -> ([String; 3], f32) {
+    let font = TextStyle::Button.resolve(ui.style());
+    let wide = |ui: &Ui, text: &str| {
+        let text = ui.painter().layout_no_wrap(text.to_owned(), font.clone(), egui::Color32::PLACEHOLDER);
+        text.size().x + 2.0 * ui.spacing().button_padding.x + ui.spacing().item_spacing.x
+    };
+    for (counted, is_narrow) in [(3, false), (3, true), (1, true), (0, true)] {
+        let mut place = 0;
+        let texts = counts.map(|(name, count)| {
+            place += 1;
+            if count > 0 && place <= counted { format!("{name} ({})", grouped(count)) } else { name.to_owned() }
+        });
+        if is_narrow {
+            ui.spacing_mut().button_padding.x = 4.0;
+            ui.spacing_mut().item_spacing.x = 2.0;
+        }
+        let room = ui.available_width() - texts.iter().map(|text| wide(ui, text)).sum::<f32>();
+        if room >= 0.0 || counted == 0 {
+            return (texts, room);
         }
     }
+    (counts.map(|(name, _)| name.to_owned()), 0.0)
 }
 
 fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

@@ -84,7 +84,7 @@ fn side(
 /// What is shown, and how to close it.
 fn title(ui: &mut Ui, session: &Session, has_keys: bool, commands: &mut Vec<Command>) {
     let document = &session.document;
-    let mark = if document.program.is_modified() { "● " } else { "" };
+    let mark = if document.program.is_modified() || session.program_is_gone() { "● " } else { "" };
     let made_by = match session.origin() {
         Origin::Former => format!(" (shows {})", session.made_by()),
         _ => String::new(),

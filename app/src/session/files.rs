@@ -133,6 +133,12 @@ impl Session {
         self.document.program.path.as_ref().is_some_and(|path| !path.exists())
     }
 
+    /// Whether the program's file was found deleted or renamed, and is not back.
+    #[must_use]
+    pub fn program_is_gone(&self) -> bool {
+        self.program_gone
+    }
+
     pub(super) fn answer_unsaved(&mut self, answer: Answer) {
         let Some(Dialog::Unsaved { then }) = &self.dialog else { return };
         let then = (**then).clone();

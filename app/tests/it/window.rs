@@ -517,6 +517,22 @@ fn a_narrow_window_leaves_the_viewport_its_room() {
 }
 
 #[test]
+fn in_a_narrow_window_no_tab_of_the_messages_is_cut_or_covered() {
+    let mut window = octahedron();
+    for size in [egui::vec2(1280.0, 720.0), egui::vec2(760.0, 460.0), egui::vec2(640.0, 480.0)] {
+        window.set_size(size);
+        write(&mut window, "void f(mesh& S) { print(1); x = 1; }\n");
+        window.run_steps(3);
+        let tab = |name: &str| window.get_by_role_and_label(Role::Button, name).rect();
+        let mut places = ["Problems", "Mesh", "Console"].map(tab).to_vec();
+        places.extend(window.query_by_label("Copy").map(|copy| copy.rect()));
+        places.push(window.get_by_label("Viewport").rect());
+        assert!(places.is_sorted_by(|a, b| a.right() <= b.left()), "{size}: {places:?}");
+        assert!(places.len() == 5 || size.x < 700.0, "there is room to copy: {size}");
+    }
+}
+
+#[test]
 fn a_text_whose_file_is_gone_is_asked_about_before_it_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.vv");

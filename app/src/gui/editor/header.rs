@@ -19,7 +19,11 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
             });
         };
         widgets::sides(ui, "program", ui.spacing().interact_size.y, name, |ui| {
-            if program.is_modified() {
+            let gone = session.program_is_gone();
+            if gone {
+                let text = RichText::new("file gone").small().color(ui.visuals().warn_fg_color);
+                ui.label(text).on_hover_text("it was deleted or renamed; saving writes it anew");
+            } else if program.is_modified() {
                 ui.label(RichText::new("unsaved").small().color(ui.visuals().warn_fg_color));
             }
             if session.text_waits() {
@@ -28,7 +32,8 @@ pub fn show(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {
                     commands.push(Command::Run);
                 }
             }
-            let response = ui.add_enabled(program.is_modified() || program.path.is_none(), egui::Button::new("Save"));
+            let needs = program.is_modified() || program.path.is_none() || gone;
+            let response = ui.add_enabled(needs, egui::Button::new("Save"));
             let response = response.accessible_name("Save the program");
             if response.on_hover_ui(|ui| widgets::tooltip(ui, &Command::Save)).clicked() {
                 commands.push(Command::Save);

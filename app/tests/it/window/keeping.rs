@@ -212,3 +212,21 @@ fn looking_around_is_nothing_to_bring_back() {
         recoveries(folder.path()).len() == 1
     });
 }
+
+#[test]
+fn a_program_whose_file_is_gone_says_so_until_it_is_saved_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.vv");
+    std::fs::write(&path, PROGRAM).unwrap();
+    let mut window = open(None, Some(&path));
+    let can_save =
+        |window: &Harness<'static, App>| !window.get_by_label("Save the program").accesskit_node().is_disabled();
+    assert!(window.query_by_label("file gone").is_none() && !can_save(&window));
+    std::fs::rename(&path, folder.path().join("other.vv")).unwrap();
+    until(&mut window, "it is told", |s| s.program_is_gone());
+    window.run_steps(2);
+    assert!(window.query_by_label("file gone").is_some() && can_save(&window));
+    click(&mut window, "Save the program");
+    window.run_steps(2);
+    assert!(window.query_by_label("file gone").is_none() && path.exists());
+}
