@@ -230,6 +230,8 @@ pub struct Session {
     /// How often it was played.
     plays: u64,
     text_on_disk: Option<Arc<str>>,
+    /// The text that the window opened with because none was asked for.
+    welcome_text: Arc<str>,
     /// Whether the program's file was deleted.
     program_gone: bool,
     chooser: Option<Chooser>,
@@ -288,7 +290,7 @@ impl Session {
         let most_memory = limits.max_bytes / 2;
         let worker = Worker::start(limits, (preferences.memory << 20).min(most_memory), move || waker())?;
         let watch = Watch::start(move || watcher())?;
-        let text_to_run = Arc::clone(&document.program.text);
+        let [text_to_run, welcome_text] = [(); 2].map(|()| Arc::clone(&document.program.text));
         Ok(Self {
             document,
             theme: ThemeChoice::System,
@@ -341,6 +343,7 @@ impl Session {
             then: None,
             plays: 0,
             text_on_disk: None,
+            welcome_text,
             program_gone: false,
             chooser: None,
             background: Vec::new(),

@@ -8,6 +8,8 @@ use vv::engine::FailureKind;
 
 use super::{GRACE, Halted, Running, Session, Stale};
 use crate::command::Command;
+use crate::document::{MeshSource, ProgramText};
+use crate::library;
 use crate::worker::{Event, Failed, Frame, Recipe, Report, Request, release};
 
 /// Playing pauses before a generation that would probably have more vertices.
@@ -184,14 +186,32 @@ impl Session {
                 self.problems.ran(&frame.warnings, &Arc::default(), frame.request.generation);
                 self.inspection.fault = None;
                 self.say_if_idle(&frame);
-                self.show(frame, Some(of));
+                self.show(Arc::clone(&frame), Some(of));
                 self.stale = None;
                 self.running = None;
+                self.suit_program(&frame);
             }
             Event::Failed(failed) => {
                 self.running = None;
                 self.failed(failed, &request);
             }
+        }
+    }
+
+    /// A mesh file that the program nobody has asked for is not for gets another one.
+    fn suit_program(&mut self, first: &Frame) {
+        const ANY_POLYGONS: &str = "catmull-clark.vv";
+        let unasked = Arc::ptr_eq(&self.document.program.text, &self.welcome_text);
+        let is_of_file = matches!(first.request.recipe.mesh, MeshSource::File(_)) && first.request.generation == 0;
+        let of_triangles = first.statistics.face_degrees.iter().all(|&(degree, _)| degree == 3);
+        if !unasked || !is_of_file || of_triangles {
+            return;
+        }
+        if let Some(program) = library::program(ANY_POLYGONS) {
+            let was = std::mem::replace(&mut self.fit, false);
+            self.set_program(ProgramText::new(program.name, program.text));
+            self.fit = was; // the mesh is the same
+            self.say(Severity::Note, format!("{ANY_POLYGONS}, since not all faces are triangles"));
         }
     }
 

@@ -407,3 +407,28 @@ fn what_the_mesh_file_says_and_the_program_cannot_hold_is_warned_of_at_its_decla
     write(&mut window, "vertex { double heat; };\nvoid f(mesh& S) { }\n");
     assert_eq!(warned(&window), [""; 0]);
 }
+
+#[test]
+fn a_mesh_alone_comes_with_a_program_that_is_for_it_and_a_program_that_was_asked_for_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| {
+        let shipped = app::library::MESHES.iter().find(|mesh| mesh.name == name).unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, shipped.text).unwrap();
+        path
+    };
+    let program = |window: &Harness<'static, App>| window.state().session().document.program.name.clone();
+    let [cube, tetrapod] = ["cube.obj", "tetrapod.obj"].map(file);
+    let mut window = open(Some(&tetrapod), None);
+    assert_eq!(program(&window), "loop.vv");
+    window.state_mut().apply(Command::Open(cube.clone()));
+    settle(&mut window);
+    assert_eq!(program(&window), "catmull-clark.vv", "not all faces are triangles");
+    press(&mut window, Key::S);
+    assert_eq!(faces(&window), 24);
+    window.state_mut().apply(Command::OpenExample("loop.vv"));
+    settle(&mut window);
+    window.state_mut().apply(Command::Open(cube.clone()));
+    settle(&mut window);
+    assert_eq!(program(&window), "loop.vv", "that was asked for");
+}
