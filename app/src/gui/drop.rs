@@ -8,7 +8,7 @@ use eframe::egui::{
 use vv::io::Format;
 
 use crate::document::file_name;
-use crate::project;
+use crate::{project, style_file};
 
 /// Most files that are told of one by one.
 const MOST: usize = 6;
@@ -56,8 +56,10 @@ fn meaning(path: &Path) -> String {
         format!("{name}, a project: program, mesh, parameters and view")
     } else if Format::from_extension(&extension).is_some() {
         format!("{name}, in place of the mesh")
+    } else if extension == style_file::EXTENSION {
+        format!("{name}, a style: how things are shown")
     } else {
-        format!("{name} is neither mesh nor program nor project")
+        format!("{name} is neither mesh nor program, project or style")
     }
 }
 
@@ -70,6 +72,7 @@ mod tests {
         assert_eq!(meaning(Path::new("/a/b.VV")), "b.VV, in place of the program");
         assert_eq!(meaning(Path::new("b.vvp")), "b.vvp, a project: program, mesh, parameters and view");
         assert_eq!(meaning(Path::new("b.stl")), "b.stl, in place of the mesh");
-        assert_eq!(meaning(Path::new("b.txt")), "b.txt is neither mesh nor program nor project");
+        assert_eq!(meaning(Path::new("b.txt")), "b.txt is neither mesh nor program, project or style");
+        assert_eq!(meaning(Path::new("b.json")), "b.json, a style: how things are shown");
     }
 }

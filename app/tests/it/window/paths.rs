@@ -1,4 +1,6 @@
-//! Typing a path, where the system offers no file dialog.
+//! Typing a path, where the system offers no file dialog; and files that are dropped.
+
+use std::sync::Arc;
 
 use super::*;
 use app::session::{Dialog, Purpose};
@@ -223,4 +225,40 @@ fn a_file_that_is_there_is_replaced_only_when_asked_for_twice_or_by_its_button()
     ask(&mut window, Purpose::SaveProgram, &other);
     click(&mut window, "Replace");
     assert_eq!(std::fs::read_to_string(other).unwrap(), PROGRAM);
+}
+
+/// A file as the system hands it over.
+#[derive(Debug)]
+struct Dropped(std::path::PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn files_that_are_dropped_are_opened_together_and_what_is_none_of_vv_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let [program, mesh, other] = ["mine.vv", "a b.off", "c.txt"].map(|name| folder.path().join(name));
+    std::fs::write(&program, PROGRAM).unwrap();
+    std::fs::write(&mesh, "OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2\n").unwrap();
+    std::fs::write(&other, "").unwrap();
+    let mut window = octahedron();
+    let mut drop = |files: &[&Path]| {
+        let dropped = files.iter().map(|path| Arc::new(Dropped(path.to_path_buf())) as egui::DroppedFileHandle);
+        window.input_mut().dropped_files = dropped.collect();
+        settle(&mut window);
+        let session = window.state().session();
+        let said = session.notice().map(|(_, text)| text.to_owned());
+        (session.document.program.name.clone(), faces(&window), said)
+    };
+    assert_eq!(drop(&[&program, &mesh]), ("mine.vv".to_owned(), 1, None));
+    let (name, faces, said) = drop(&[&other]);
+    assert_eq!((name.as_str(), faces), ("mine.vv", 1));
+    assert!(said.is_some_and(|said| said.contains("c.txt: neither a program")));
 }

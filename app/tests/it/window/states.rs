@@ -428,7 +428,7 @@ fn a_mesh_alone_comes_with_a_program_that_is_for_it_and_a_program_that_was_asked
     assert_eq!(faces(&window), 24);
     window.state_mut().apply(Command::OpenExample("loop.vv"));
     settle(&mut window);
-    window.state_mut().apply(Command::Open(cube.clone()));
+    window.state_mut().apply(Command::Open(cube));
     settle(&mut window);
     assert_eq!(program(&window), "loop.vv", "that was asked for");
 }
