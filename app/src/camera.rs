@@ -204,6 +204,22 @@ impl Camera {
         Self { pivot: bounds.center + self.world_from_view * shift.extend(0.0), distance, ..self }
     }
 
+    /// What `fit` gives for a picture of this width over height, `below` of whose height is covered at the lower edge: shows
+    /// the same in what is free above. Of what the margin leaves there anyway nothing changes.
+    #[must_use]
+    pub fn fit_above(self, below: f64, aspect: f64, fit: impl FnOnce(Self, f64) -> Self) -> Self {
+        let margin = (1.0 - 1.0 / MARGIN) / 2.0;
+        let covered = ((below - margin) / (1.0 - margin)).clamp(0.0, 0.5);
+        if covered == 0.0 {
+            return fit(self, aspect);
+        }
+        let (half, free) = ((self.field_of_view / 2.0).tan(), 1.0 - covered);
+        let above = fit(Self { field_of_view: 2.0 * (half * free).atan(), ..self }, aspect / free);
+        // The middle of what is free lies half of what is covered above the middle of the picture.
+        let down = self.world_from_view * DVec3::Y * (half * covered * above.distance);
+        Self { pivot: above.pivot - down, field_of_view: self.field_of_view, ..above }
+    }
+
     /// The sides of what is seen in a picture of this width over height: right, left, top, bottom. What lies beyond one of
     /// them is not seen.
     #[must_use]

@@ -308,3 +308,25 @@ fn who_is_nearer_or_farther_than_zooming_goes_is_not_thrown_back() {
         assert_eq!(camera.zoom(DVec2::ZERO, 1.0, BOUNDS).distance, distance);
     }
 }
+
+#[test]
+fn what_is_covered_at_the_lower_edge_stays_free_of_what_is_fitted() {
+    let points: Vec<DVec3> = (0..8).map(|i| DVec3::from([i & 1, i >> 1 & 1, i >> 2].map(f64::from)) * 3.0).collect();
+    let (center, radius) = (DVec3::splat(1.5), 1.5 * 3f64.sqrt());
+    let bounds = Sphere { center, radius };
+    for (camera, aspect) in [(camera(), 2.0), (camera(), 0.7), (orthographic(), 2.0)] {
+        let fit = |camera: Camera, aspect| camera.fit_points(points.iter().copied(), bounds, aspect);
+        let places = |camera: &Camera| -> Vec<DVec2> {
+            let clip = camera.clip_from_view(aspect) * camera.view_from_world();
+            points.iter().map(|p| clip * p.extend(1.0)).map(|p| DVec2::new(p.x, p.y) / p.w).collect()
+        };
+        assert_eq!(camera.fit_above(0.04, aspect, fit), fit(camera, aspect), "the margin is enough");
+        for below in [0.1, 0.2, 0.3] {
+            let fitted = camera.fit_above(below, aspect, fit);
+            assert_eq!(fitted.field_of_view, camera.field_of_view);
+            let lowest = places(&fitted).iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
+            assert!(lowest >= 2.0 * below - 1.0 - 1e-9, "{below} of {aspect}: {lowest}");
+            assert!(places(&fitted).iter().all(|p| p.abs().max_element() <= 1.0), "{below} of {aspect}");
+        }
+    }
+}

@@ -90,22 +90,27 @@ pub fn show(
     Some(shown.response.rect)
 }
 
-/// A strip above the lower edge: what the colours are, and a bar or the kinds, in a line each.
-fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<&Under>) -> Option<Rect> {
-    let width = strip_width(rect);
-    if width < 90.0 || rect.height() < 150.0 {
-        return None; // no room
-    }
+/// How much of a picture's height it takes as a strip; nothing otherwise.
+pub fn strip_height(ui: &Ui, rect: Rect, colors: Option<&Colors>) -> f32 {
+    let Some(colors) = colors.filter(|colors| is_strip(rect, height(colors)) && has_room(rect)) else { return 0.0 };
+    compact_height(colors, &rows(ui, strip_width(rect), colors)) + 10.0
+}
+
+/// Whether there is room for a strip.
+fn has_room(rect: Rect) -> bool {
+    strip_width(rect) >= 90.0 && rect.height() >= 150.0
+}
+
+/// The kinds that occur, in as many rows as they need in a strip.
+fn rows<'c>(ui: &Ui, width: f32, colors: &'c Colors) -> Vec<Vec<&'c Class>> {
     let font = FontId::proportional(11.0);
     let ink = ui.visuals().text_color();
-    let long = |ui: &Ui, text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), ink).size().x;
-    let kind = colors.as_ref().ok().map(|tint| &tint.field.kind);
-    // The kinds that occur, in as many rows as they need.
+    let long = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), ink).size().x;
     let mut rows: Vec<Vec<&Class>> = Vec::new();
-    if let Some(Kind::Classes(classes)) = kind {
+    if let Some(Kind::Classes(classes)) = colors.as_ref().ok().map(|tint| &tint.field.kind) {
         let mut left = 0.0;
         for class in classes.iter().filter(|class| class.count > 0) {
-            let wide = 24.0 + long(ui, &class.name);
+            let wide = 24.0 + long(&class.name);
             if rows.is_empty() || left < wide {
                 rows.push(Vec::new());
                 left = width;
@@ -116,13 +121,29 @@ fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<
             }
         }
     }
-    let below = match (colors, kind) {
-        (Err(_), _) => 2.0 * 15.0,
-        (_, Some(Kind::Classes(_))) => rows.len() as f32 * 15.0,
-        (_, Some(Kind::Colors)) => 0.0,
-        _ => 25.0 + COUNTS,
+    rows
+}
+
+fn compact_height(colors: &Colors, rows: &[Vec<&Class>]) -> f32 {
+    let below = match colors.as_ref().map(|tint| &tint.field.kind) {
+        Err(_) => 2.0 * 15.0,
+        Ok(Kind::Classes(_)) => rows.len() as f32 * 15.0,
+        Ok(Kind::Colors) => 0.0,
+        Ok(_) => 25.0 + COUNTS,
     };
-    let size = vec2(width + 16.0, 17.0 + below + 10.0);
+    17.0 + below + 10.0
+}
+
+/// A strip above the lower edge: what the colours are, and a bar or the kinds, in a line each.
+fn compact(ui: &mut Ui, rect: Rect, title: &str, colors: &Colors, under: Option<&Under>) -> Option<Rect> {
+    if !has_room(rect) {
+        return None;
+    }
+    let width = strip_width(rect);
+    let font = FontId::proportional(11.0);
+    let kind = colors.as_ref().ok().map(|tint| &tint.field.kind);
+    let rows = rows(ui, width, colors);
+    let size = vec2(width + 16.0, compact_height(colors, &rows));
     let place = Rect::from_min_size(rect.right_bottom() - size - vec2(10.0, 10.0), size);
     let paper = ui.visuals().window_fill.gamma_multiply(0.9);
     let edge = ui.visuals().window_stroke;

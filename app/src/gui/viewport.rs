@@ -39,8 +39,8 @@ pub struct Viewport {
     hands: Hands,
     labels: labels::Labels,
     context: context::Context,
-    /// What just fitted into a picture of this size.
-    fitted: Option<(Camera, Size)>,
+    /// What just fitted into a picture of this size, beside a strip that says what colours mean or without.
+    fitted: Option<(Camera, (Size, bool))>,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
@@ -76,12 +76,18 @@ impl Viewport {
         let size = pixels(rect, ui.pixels_per_point());
         let mut camera = session.document.camera;
         let _span = trace::span("window: viewport");
+        let colors = session.colors();
+        let strip = legend::strip_height(ui, rect, colors.as_ref());
+        let room = (size, strip > 0.0);
+        let covered = Counts::of(ui, rect, &frame).height() + strip;
+        let below = f64::from(covered / rect.height().max(1.0));
         // Nobody has turned or moved it since: it fits into a picture of another size, too.
-        session.fit |= self.fitted.is_some_and(|(fitted, of)| fitted == camera && of != size);
+        session.fit |= self.fitted.is_some_and(|(fitted, into)| fitted == camera && into != room);
         if session.fit && !session.is_busy() && frame.scene.fits_at_once() {
             session.fit = false;
-            let fitted = frame.scene.fit(session.aim(), &style, size.aspect());
-            self.fitted = Some((fitted, size));
+            let fit = |camera, aspect| frame.scene.fit(camera, &style, aspect);
+            let fitted = session.aim().fit_above(below, size.aspect(), fit);
+            self.fitted = Some((fitted, room));
             // What was there before is left by gliding; what is new is seen at once.
             if std::mem::take(&mut session.asked_to_fit) {
                 commands.push(Command::View(ViewAction::Glide(fitted)));
@@ -90,9 +96,9 @@ impl Viewport {
                 commands.push(Command::SetCamera(camera));
             }
         } else if !ui.input(|i| i.pointer.any_down())
-            && let Some(led) = session.lead(size, &style)
+            && let Some(led) = session.lead(size, &style, below)
         {
-            self.fitted = Some((led, size));
+            self.fitted = Some((led, room));
             commands.push(Command::View(ViewAction::Glide(led)));
         }
         if let Some(moved) = self.hands.moved(ui, &response, &session.navigation, camera, &frame.scene, &style) {
@@ -100,7 +106,6 @@ impl Viewport {
             commands.push(Command::SetCamera(camera));
         }
         session.view = Some((size, style));
-        let colors = session.colors();
         let dress = Wardrobe {
             tint: colors.as_ref().and_then(|colors| colors.as_ref().ok()).cloned(),
             arrows: session.arrows(),
@@ -132,7 +137,8 @@ impl Viewport {
         self.labels.show(ui, &inks, &frame, (labels, labels::outlook(camera, style, rect)), &self.wake);
         let pointer = response.hover_pos().map(|at| hands::pointer(rect, at, &camera, inks.cut()));
         let plate = if backdrop.is_some() { 0.95 } else { 0.75 };
-        let room = counts(ui, rect, &frame, plate, legend::width(rect, colors.as_ref()));
+        let counts = Counts::of(ui, rect, &frame);
+        let room = counts.show(ui, rect, plate, legend::width(rect, colors.as_ref()));
         let legend = legend::show(ui, room, session, &frame, colors.as_ref(), pointer);
         if style.axes {
             gizmo::show(ui, rect, &camera);
@@ -187,40 +193,57 @@ fn overlay(ui: &mut Ui, rect: Rect, session: &Session, legend: Option<Rect>) {
     news(ui, rect, session, legend);
 }
 
-/// The counts at the lower edge, in as many lines as they need; no number is broken. Returns the room above them, where
-/// something as wide as `beside` may stand at the right.
-fn counts(ui: &Ui, rect: Rect, frame: &Frame, opacity: f32, beside: f32) -> Rect {
-    let s = &frame.statistics;
-    let parts = [
-        format!("generation {}", frame.request.generation),
-        format!("{} vertices", grouped(s.vertices)),
-        format!("{} edges", grouped(s.edges)),
-        format!("{} faces", grouped(s.faces)),
-    ];
-    let (font, color) = (TextStyle::Small.resolve(ui.style()), ui.visuals().weak_text_color());
-    let lay = |text: String| ui.painter().layout_no_wrap(text, font.clone(), color);
-    let mut lines: Vec<String> = Vec::new();
-    for part in parts {
-        match lines.last_mut() {
-            Some(line) if lay(format!("{line}   {part}")).size().x <= rect.width() - 20.0 => {
-                line.push_str("   ");
-                line.push_str(&part);
+/// The counts at the lower edge, in as many lines as they need; no number is broken.
+struct Counts {
+    lines: Vec<String>,
+    galley: Arc<egui::Galley>,
+}
+
+impl Counts {
+    fn of(ui: &Ui, rect: Rect, frame: &Frame) -> Self {
+        let s = &frame.statistics;
+        let parts = [
+            format!("generation {}", frame.request.generation),
+            format!("{} vertices", grouped(s.vertices)),
+            format!("{} edges", grouped(s.edges)),
+            format!("{} faces", grouped(s.faces)),
+        ];
+        let (font, color) = (TextStyle::Small.resolve(ui.style()), ui.visuals().weak_text_color());
+        let lay = |text: String| ui.painter().layout_no_wrap(text, font.clone(), color);
+        let mut lines: Vec<String> = Vec::new();
+        for part in parts {
+            match lines.last_mut() {
+                Some(line) if lay(format!("{line}   {part}")).size().x <= rect.width() - 20.0 => {
+                    line.push_str("   ");
+                    line.push_str(&part);
+                }
+                _ => lines.push(part),
             }
-            _ => lines.push(part),
         }
+        let galley = lay(lines.join("\n"));
+        Self { lines, galley }
     }
-    let galley = lay(lines.join("\n"));
-    let size = galley.size();
-    let at = rect.left_bottom() + vec2(10.0, -8.0 - size.y);
-    // Grid and mesh may lie behind it, and any colour.
-    let plate = Rect::from_min_size(at, size).expand2(vec2(5.0, 2.0));
-    ui.painter().rect_filled(plate, 4.0, ui.visuals().panel_fill.gamma_multiply(opacity));
-    let spoken = lines.join(", ").replace("   ", ", ");
-    let said = ui.interact(plate, ui.scope_id().with("counts"), Sense::empty());
-    said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
-    ui.painter().galley(at, galley, color);
-    let apart = size.x + 30.0 + beside <= rect.width();
-    if apart { rect } else { rect.with_max_y(rect.bottom() - size.y - 6.0) }
+
+    /// Of what they cover at the lower edge.
+    fn height(&self) -> f32 {
+        self.galley.size().y + 10.0
+    }
+
+    /// Shows them. Returns the room above them, where something as wide as `beside` may stand at the right.
+    fn show(self, ui: &Ui, rect: Rect, opacity: f32, beside: f32) -> Rect {
+        let size = self.galley.size();
+        let at = rect.left_bottom() + vec2(10.0, -8.0 - size.y);
+        // Grid and mesh may lie behind it, and any colour.
+        let plate = Rect::from_min_size(at, size).expand2(vec2(5.0, 2.0));
+        ui.painter().rect_filled(plate, 4.0, ui.visuals().panel_fill.gamma_multiply(opacity));
+        let spoken = self.lines.join(", ").replace("   ", ", ");
+        let said = ui.interact(plate, ui.scope_id().with("counts"), Sense::empty());
+        said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
+        let color = ui.visuals().weak_text_color();
+        ui.painter().galley(at, self.galley, color);
+        let apart = size.x + 30.0 + beside <= rect.width();
+        if apart { rect } else { rect.with_max_y(rect.bottom() - size.y - 6.0) }
+    }
 }
 
 /// For how long something has been computed, and which generation, if somebody waits for it.

@@ -68,8 +68,9 @@ impl Session {
         }
     }
 
-    /// Where the camera shall go, if the mesh has left the picture or has come back.
-    pub fn lead(&mut self, size: Size, style: &Style) -> Option<Camera> {
+    /// Where the camera shall go, if the mesh has left the picture, `below` of whose height is covered at the lower edge, or
+    /// has come back.
+    pub fn lead(&mut self, size: Size, style: &Style, below: f64) -> Option<Camera> {
         let change = self.leading.due?;
         let scene = &self.frame.as_ref().filter(|frame| frame.scene.fits_at_once())?.scene;
         let (aim, aspect) = (self.aim(), size.aspect());
@@ -87,7 +88,7 @@ impl Session {
         } else {
             leading.from.push(aim);
             // Never nearer: what has only gone aside is followed there.
-            let fitted = scene.fit(aim, style, aspect);
+            let fitted = aim.fit_above(below, aspect, |camera, aspect| scene.fit(camera, style, aspect));
             Camera { distance: fitted.distance.max(aim.distance), ..fitted }
         };
         leading.to = Some(to);
