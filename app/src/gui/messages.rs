@@ -12,7 +12,9 @@ use crate::session::{Problem, Session};
 
 /// Width of the button that copies, and of what looks for lines.
 const COPY: f32 = 48.0;
-const FILTER: f32 = 60.0;
+const FILTER: f32 = 48.0;
+/// Room beside the text of a tab and between tabs, where there is little.
+const NARROW: (f32, f32) = (4.0, 2.0);
 
 /// The panel's own state: which part is shown.
 #[derive(Default)]
@@ -43,7 +45,8 @@ impl Messages {
                 let all = problems.iter().count();
                 let (wrong, found) = found_in_mesh(session);
                 let counts = [("Problems", all), ("Mesh", found), ("Console", lines)];
-                let ([of_problems, of_mesh, of_console], room) = titles(ui, counts);
+                let beside = if self.console && !session.inspection.listing && lines > 0 { COPY + FILTER } else { 0.0 };
+                let ([of_problems, of_mesh, of_console], room) = titles(ui, counts, beside);
                 let mut title = RichText::new(of_problems);
                 if errors + warnings > 0 {
                     let worst = if errors > 0 { Severity::Error } else { Severity::Warning };
@@ -76,7 +79,8 @@ impl Messages {
                             false => all_texts(session),
                         });
                     }
-                    if self.console && copies && room > COPY + FILTER {
+                    let filters = room >= COPY + FILTER || self.printed.is_filtered();
+                    if self.console && !listing && count > 0 && filters {
                         self.printed.field(ui);
                     }
                 });
@@ -99,30 +103,29 @@ fn found_in_mesh(session: &Session) -> (usize, usize) {
     findings.map_or((0, 0), Findings::counts)
 }
 
-/// What is written on the tabs, with as many counts as there is room for, and how much room is left. Makes `ui` narrow where
-/// there is little.
-fn titles(ui: &mut Ui, counts: [(&str, usize); 3]) -> ([String; 3], f32) {
+/// What is written on the tabs, with as many counts as there is room for beside something of this width, or else for the tabs
+/// alone; and how much room is left. Makes `ui` narrow where there is little.
+fn titles(ui: &mut Ui, counts: [(&str, usize); 3], beside: f32) -> ([String; 3], f32) {
     let font = TextStyle::Button.resolve(ui.style());
     let wide = |ui: &Ui, text: &str| {
-        let text = ui.painter().layout_no_wrap(text.to_owned(), font.clone(), egui::Color32::PLACEHOLDER);
-        text.size().x + 2.0 * ui.spacing().button_padding.x + ui.spacing().item_spacing.x
+        ui.painter().layout_no_wrap(text.to_owned(), font.clone(), egui::Color32::PLACEHOLDER).size().x
     };
-    for (counted, is_narrow) in [(3, false), (3, true), (1, true), (0, true)] {
+    let usual = (ui.spacing().button_padding.x, ui.spacing().item_spacing.x);
+    let ways = [(3, usual), (3, NARROW), (1, NARROW), (0, NARROW)].map(|(counted, (padding, spacing))| {
         let mut place = 0;
         let texts = counts.map(|(name, count)| {
             place += 1;
             if count > 0 && place <= counted { format!("{name} ({})", grouped(count)) } else { name.to_owned() }
         });
-        if is_narrow {
-            ui.spacing_mut().button_padding.x = 4.0;
-            ui.spacing_mut().item_spacing.x = 2.0;
-        }
-        let room = ui.available_width() - texts.iter().map(|text| wide(ui, text)).sum::<f32>();
-        if room >= 0.0 || counted == 0 {
-            return (texts, room);
-        }
-    }
-    (counts.map(|(name, _)| name.to_owned()), 0.0)
+        let used: f32 = texts.iter().map(|text| wide(ui, text) + 2.0 * padding + spacing).sum();
+        (texts, ui.available_width() - used, (padding, spacing))
+    });
+    let fits = |least: f32| ways.iter().find(|(_, room, _)| *room >= least);
+    let [.., last] = &ways;
+    let (texts, room, (padding, spacing)) = fits(beside).or_else(|| fits(0.0)).unwrap_or(last).clone();
+    ui.spacing_mut().button_padding.x = padding;
+    ui.spacing_mut().item_spacing.x = spacing;
+    (texts, room)
 }
 
 fn list(ui: &mut Ui, session: &Session, commands: &mut Vec<Command>) {

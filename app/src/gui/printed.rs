@@ -44,6 +44,11 @@ impl Printed {
         field.accessible_name("Filter lines");
     }
 
+    /// Whether some lines are left out.
+    pub fn is_filtered(&self) -> bool {
+        !self.filter.is_empty()
+    }
+
     /// Shows the lines of the generations up to this one.
     pub fn show(&mut self, ui: &mut Ui, session: &Session, generation: u64, commands: &mut Vec<Command>) {
         let height = ui.text_style_height(&TextStyle::Monospace);
