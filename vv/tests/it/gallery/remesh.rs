@@ -1,5 +1,8 @@
 //! Remeshing and the coral: what must stay as it was, and what must become better.
 
+use std::collections::HashMap;
+
+use glam::DVec3;
 use vv::mesh::Value;
 
 use super::Show;
@@ -19,11 +22,23 @@ fn regular(show: &Show) -> f64 {
 
 /// The smallest angle of a triangle, as a sine: how thin the thinnest is.
 fn thinnest(show: &Show) -> f64 {
-    let corner = |f: &[glam::DVec3], i: usize| {
+    let corner = |f: &[DVec3], i: usize| {
         let (u, v) = (f[(i + 1) % 3] - f[i], f[(i + 2) % 3] - f[i]);
         u.cross(v).length() / (u.length() * v.length())
     };
     show.faces().iter().flat_map(|f| (0..3).map(|i| corner(f, i))).fold(1.0, f64::min)
+}
+
+/// The length of the edges that bend by more than 120 degrees, where triangles nearly lie upon each other.
+fn folded(show: &Show) -> f64 {
+    let faces = show.faces();
+    let normal = |f: &[DVec3]| (f[1] - f[0]).cross(f[2] - f[0]).normalize();
+    let sides = |f: &Vec<DVec3>| (0..3).map(|i| (f[i], f[(i + 1) % 3], normal(f))).collect::<Vec<_>>();
+    let key = |p: DVec3, q: DVec3| [p, q].map(|p| p.to_array().map(f64::to_bits));
+    let all: Vec<_> = faces.iter().flat_map(sides).collect();
+    let normals: HashMap<_, _> = all.iter().map(|&(p, q, n)| (key(p, q), n)).collect();
+    let bends = |&&(p, q, n): &&(DVec3, DVec3, DVec3)| normals.get(&key(q, p)).is_some_and(|m| n.dot(*m) < -0.5);
+    all.iter().filter(bends).map(|(p, q, _)| p.distance(*q)).sum::<f64>() / 2.0
 }
 
 #[test]
@@ -69,6 +84,18 @@ fn remeshing_beside_creases_encloses_what_it_did() {
     let before = Show::on_mesh("torus.obj", "remesh.vv", &[]);
     let volume = before.volume();
     super::assert_near(before.steps(30).volume(), volume);
+}
+
+/// Where hardly a vertex may move, no edit lays triangles upon each other, nor takes more than what one edit does.
+#[test]
+fn remeshing_makes_no_folds() {
+    for (mesh, most) in [("elephant.obj", 1e-9), ("tetrapod.obj", 0.015)] {
+        let before = Show::on_mesh(mesh, "remesh.vv", &[]);
+        let (volume, folds) = (before.volume(), folded(&before));
+        let after = before.steps(8);
+        assert!(folded(&after) <= folds, "{mesh}: {} {folds}", folded(&after));
+        assert!((after.volume() / volume - 1.0).abs() < most, "{mesh}: {} {volume}", after.volume());
+    }
 }
 
 /// A cube stays a cube, and its corners and edges are where they were.
