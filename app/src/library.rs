@@ -1,5 +1,6 @@
 //! The programs and meshes that ship with vv, in the binary.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use vv::Included;
@@ -93,6 +94,18 @@ pub const MESHES: &[Shipped] = &[
 #[must_use]
 pub fn program(name: &str) -> Option<&'static Shipped> {
     PROGRAMS.iter().find(|p| p.name == name)
+}
+
+/// The program that is meant by a path that is a name only, and that nothing has.
+#[must_use]
+pub fn meant(path: &Path) -> Option<&'static Shipped> {
+    path.to_str().filter(|_| is_free(path)).and_then(program)
+}
+
+/// Whether nothing is there.
+#[must_use]
+pub fn is_free(path: &Path) -> bool {
+    path.symlink_metadata().is_err_and(|error| error.kind() == ErrorKind::NotFound)
 }
 
 /// The name of the program that is probably meant by one that none has: folder, case and extension may be others.

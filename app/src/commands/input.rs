@@ -1,14 +1,13 @@
 //! Files that commands read.
 
 use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
 use app::document::NOWHERE;
 use app::evaluation::within;
 use app::files::{self, FileError};
-use app::library::{self, Shipped};
+use app::library;
 use vv::diagnostic::{Diagnostic, Severity};
 use vv::io::{Format, Place, ReadOptions};
 use vv::ir::Program;
@@ -28,28 +27,20 @@ const MOST_QUOTED: u64 = 64 << 20;
 /// [`Exit::Usage`] if it is a mesh, [`Exit::File`] if it cannot be read, [`Exit::Program`] if it has errors.
 pub fn program(path: &Path, reporter: &Reporter) -> Result<(Arc<Program>, Vec<Diagnostic>), Exit> {
     not_a_mesh(path, reporter)?;
-    if let Some(shipped) = shipped(path) {
+    if let Some(shipped) = library::meant(path) {
         let said = format!("there is no file {}, so this is the program of that name that comes with vv", shipped.name);
         reporter.report(&[Diagnostic::new(Severity::Note, None, said)], &Sources::default());
         return compiled(&Path::new(NOWHERE).join(shipped.name), shipped.text, reporter);
     }
-    let text = files::read_program(path).map_err(|error| match library::nearly(path).filter(|_| is_free(path)) {
-        Some(name) => {
-            reporter.report(&[error.located().hint(format!("`{name}` comes with vv"))], &Sources::default());
-            Exit::File
-        }
-        None => file_failed(&error, reporter),
-    })?;
+    let text =
+        files::read_program(path).map_err(|error| match library::nearly(path).filter(|_| library::is_free(path)) {
+            Some(name) => {
+                reporter.report(&[error.located().hint(format!("`{name}` comes with vv"))], &Sources::default());
+                Exit::File
+            }
+            None => file_failed(&error, reporter),
+        })?;
     compiled(path, &text, reporter)
-}
-
-/// The program that comes with vv and is meant by a path that is a name only, and that nothing has.
-fn shipped(path: &Path) -> Option<&'static Shipped> {
-    path.to_str().filter(|_| is_free(path)).and_then(library::program)
-}
-
-fn is_free(path: &Path) -> bool {
-    path.symlink_metadata().is_err_and(|error| error.kind() == ErrorKind::NotFound)
 }
 
 /// As [`program`], of a text.

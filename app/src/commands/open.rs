@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use app::files;
+use app::{files, library};
 use clap::CommandFactory as _;
 use vv::diagnostic::Diagnostic;
 use vv::io::Format;
@@ -17,7 +17,9 @@ pub fn open(paths: &[PathBuf], viewpoint: Option<&str>) -> Result<(), Exit> {
     let reporter = Reporter::new(DiagnosticFormat::Human);
     let viewpoint = viewpoint.map(|given| view::read(given, &reporter)).transpose()?;
     let Opened { mesh, program } = sort(paths).or_else(|diagnostic| fail(&reporter, Exit::Usage, *diagnostic))?;
-    for path in [&mesh, &program].into_iter().flatten() {
+    // What no file has is perhaps the name of a program that comes with vv.
+    let program_file = program.as_ref().filter(|path| library::meant(path).is_none());
+    for path in [mesh.as_ref(), program_file].into_iter().flatten() {
         files::check_readable(path).map_err(|error| input::file_failed(&error, &reporter))?;
     }
     if let Some(problem) = no_window(|name| std::env::var_os(name), loader_finds) {

@@ -207,7 +207,10 @@ impl Session {
                 self.set_program(ProgramText::of_file(path, text));
                 self.remember(path);
             }
-            Err(error) => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
+            Err(error) => match library::meant(path) {
+                Some(shipped) => self.set_program(ProgramText::new(shipped.name, shipped.text)),
+                None => self.say(Severity::Error, format!("{}: {}", path.display(), error.diagnostic.message)),
+            },
         }
     }
 

@@ -432,3 +432,14 @@ fn a_mesh_alone_comes_with_a_program_that_is_for_it_and_a_program_that_was_asked
     settle(&mut window);
     assert_eq!(program(&window), "loop.vv", "that was asked for");
 }
+
+#[test]
+fn a_name_that_no_file_has_is_that_of_a_program_that_comes_with_vv() {
+    let window = open(None, Some(Path::new("tissue.vv")));
+    let session = window.state().session();
+    assert_eq!((&*session.document.program.name, &session.document.program.path), ("tissue.vv", &None));
+    assert_eq!((session.notice(), &session.document.mesh), (None, &MeshSource::Empty), "it builds its own");
+    let window = open(None, Some(Path::new("nowhere/tissue.vv")));
+    let notice = window.state().session().notice().map(|(severity, _)| severity);
+    assert_eq!(notice, Some(Severity::Error), "that is the name of a file");
+}
