@@ -144,7 +144,11 @@ pub(super) fn number(word: &[u8]) -> Result<f64, String> {
 /// A number, also one that is not finite; what is wrong with it otherwise.
 pub(super) fn any_number(word: &[u8]) -> Result<f64, String> {
     let text = std::str::from_utf8(word).ok();
-    text.and_then(|text| text.parse::<f64>().ok()).ok_or_else(|| format!("{} is not a number", show(word)))
+    text.and_then(|text| text.parse::<f64>().ok()).ok_or_else(|| {
+        let with_comma = text.is_some_and(|text| text.replacen(',', ".", 1).parse::<f64>().is_ok());
+        let why = if with_comma { ": a point stands before decimals, not a comma" } else { "" };
+        format!("{} is not a number{why}", show(word))
+    })
 }
 
 /// An integer of any size that fits; `None` if it is none.

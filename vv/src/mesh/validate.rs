@@ -136,8 +136,11 @@ fn describe(findings: &[Finding], mesh: &Mesh) -> Diagnostic {
             format!("{} of walks along the boundary {} no gap", count(n, "corner"), if n == 1 { "has" } else { "have" })
         }
         Finding::NotFinite { .. } => {
-            let are = if n == 1 { "is infinite or not a number" } else { "are infinite or not numbers" };
-            format!("the positions of {} {are}", vertices(n)).replace("the positions of 1", "the position of 1")
+            let (positions, are) = match n {
+                1 => ("position", "is infinite or not a number"),
+                _ => ("positions", "are infinite or not numbers"),
+            };
+            format!("the {positions} of {} {are}", vertices(n))
         }
         Finding::Ring { .. } => format!("the rings of {} are damaged", vertices(n)),
         Finding::Foreign { .. } => format!("the set holds {} that do not exist", vertices(n)),

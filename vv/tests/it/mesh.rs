@@ -197,6 +197,12 @@ fn positions_that_are_not_finite_are_reported() {
         "1: 2, 2: 1",
         &["the position of 1 vertex is infinite or not a number | v2 is at (0.5, NaN, inf)"],
     );
+    let mut mesh = Mesh::new();
+    let many: Vec<_> = (0..12).map(|_| mesh.create().unwrap()).collect();
+    many.iter().for_each(|&v| mesh.set_position(v, glam::dvec3(f64::NAN, 0.0, 0.0)));
+    mesh.set = many.into_iter().collect();
+    let warnings = close(&mut mesh, &Stop::new()).unwrap();
+    assert_eq!(warnings[0].message, "the positions of 12 vertices are infinite or not numbers");
 }
 
 #[test]

@@ -79,6 +79,8 @@ fn obj_statements_that_are_not_read_are_named() {
 fn obj_errors_name_their_line() {
     check_obj("v 0 0 0\nv 1 0\n", "error line 2: the vertex has two coordinates, not three");
     check_obj("v 0 0 0\nv a 0 0\n", "error line 2: `a` is not a number");
+    let said = "error line 1: `0,5` is not a number: a point stands before decimals, not a comma";
+    check_obj("v 0,5 0 0\n", said);
     check_obj("v 0 0 0\nv nan 0 0\nf 1 1 2\n", "error line 2: `nan` is not finite");
     check_obj("v 0 0 0\nv 0 -inf 0\n", "error line 2: `-inf` is not finite");
     check_obj("v 0 0 0\nv 1e999 0 0\n", "error line 2: `1e999` is too large for a double");
