@@ -189,3 +189,20 @@ fn rounded(points: DVec2) -> At {
 fn hundredths(points: f64) -> i32 {
     (points * 100.0).round() as i32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_lines_are_thinner_unless_somebody_chose_their_width() {
+        let pieces = |length: f64| vec![[DVec3::ZERO, DVec3::X * length]; 9];
+        let width = |class, line: Line, length| light(class, line, &pieces(length), |at| at);
+        for class in [Class::Inner, Class::Control] {
+            let line = Settings::line(class);
+            assert_eq!(width(class, line, 30.0), line.width, "{}", class.name());
+            assert!((width(class, line, 2.0) - 0.15).abs() < 1e-9, "{}", class.name());
+            assert_eq!(width(class, Line { width: 0.6, ..line }, 2.0), 0.6, "{}", class.name());
+        }
+    }
+}

@@ -258,6 +258,17 @@ fn a_camera_inside_the_mesh_sees_it_cut_by_the_near_plane_only() {
 }
 
 #[test]
+fn a_control_mesh_that_crowds_does_not_hide_the_surface() {
+    let differing = |mesh: &Mesh| {
+        let (scene, plain) = (scene_with_control(mesh, mesh), Style { edges: false, ..Style::default() });
+        let with = draw(&scene, &Style { control: true, ..plain });
+        with.pixels().zip(draw(&scene, &plain).pixels()).filter(|(a, b)| a != b).count()
+    };
+    assert!(differing(&torus(12, 6)) > 2000, "a coarse one is seen");
+    assert_eq!(differing(&torus(110, 55)), 0);
+}
+
+#[test]
 fn along_parallel_lines_the_picture_shows_no_vanishing_point() {
     let scene = scene_with_control(&torus(24, 12), &cube());
     let style = Style { control: true, vertices: true, ..Style::default() };
