@@ -23,7 +23,7 @@ const SCHEMES: &[Scheme] = &[
     scheme("catmull-clark.vv", "Catmull–Clark", "Catmull and Clark's scheme for any polygons", Key::C),
     scheme("doo-sabin.vv", "Doo–Sabin", "Doo and Sabin's scheme for any polygons", Key::D),
     scheme("quad-triangle.vv", "Quad/triangle", "Stam and Loop's scheme for triangles and quads", Key::Q),
-    scheme("midedge.vv", "Mid-edge", "the simplest scheme, from the middles of edges", Key::M),
+    scheme("midedge.vv", "Midedge", "the simplest scheme, from the middles of edges", Key::M),
     scheme("four-eight.vv", "4–8", "Velho and Zorin's scheme, which halves triangles", Key::H),
 ];
 
