@@ -400,6 +400,6 @@ fn of_a_star_it_is_said_what_is_no_mask() {
     assert_eq!(judged(&format!("forall v in S {{ {turned} }}")), []);
     let spiral = "vertex q = any in `v; v$pos = (2.0 * `v$pos + `q$pos + 3.0 * `(nextto q in `v)$pos) / 6.0;";
     assert!(judged(&format!("forall v in S {{ {spiral} }}")).contains(&Fault::Asymmetric));
-    let torn = "forall v in S if (v$pos.z < -1.1) { vertex q = any in v; erase q from v; erase v from q; }";
+    let torn = "forall v in S if (`v$pos.z < -1.1) { vertex q = any in v; erase q from v; erase v from q; }";
     assert_eq!(judged(torn)[0], Fault::Connectivity);
 }
