@@ -124,7 +124,7 @@ impl Post {
         let mut waiting: Option<Waiting> = None;
         let mut next_look = Instant::now() + LOOK;
         loop {
-            let due = waiting.as_ref().map_or(next_look, |w| w.due().min(next_look));
+            let due = waiting.as_ref().map_or(next_look, Waiting::due);
             let mut changed = match inbox.recv_timeout(due.saturating_duration_since(Instant::now())) {
                 Ok(Message::Close) | Err(RecvTimeoutError::Disconnected) => return,
                 Ok(Message::Files(files)) => self.set_files(files),
@@ -137,8 +137,12 @@ impl Post {
             let now = Instant::now();
             if let Some(rested) = waiting.take_if(|w| w.due() <= now) {
                 changed.extend(self.look(|path| rested.names(path), true));
+                if self.files.keys().any(|path| rested.names(path)) {
+                    // What was found emptied shall have time to be filled.
+                    next_look = next_look.max(now + LOOK / 4);
+                }
             }
-            if next_look <= now {
+            if next_look <= now && waiting.is_none() {
                 changed.extend(self.look(|_| true, false));
                 next_look = now + LOOK;
             }
