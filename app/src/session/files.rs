@@ -169,6 +169,11 @@ impl Session {
 
     /// Saves the program, and the project that is open. A text without file has one in its project.
     pub(super) fn save(&mut self) {
+        if self.text_on_disk.is_some() {
+            let question = "the program has changed on disk: first say “Reload” or “Keep mine”";
+            self.say(Severity::Warning, question.to_owned());
+            return;
+        }
         let program = &self.document.program;
         let project = self.project_path().map(Path::to_owned);
         match (program.path.clone(), project) {

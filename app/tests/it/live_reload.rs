@@ -179,6 +179,9 @@ fn changes_on_disk_do_not_overwrite_unsaved_ones_unasked() {
     bench.session.apply(Command::Edit(mine.as_str().into()));
     fs::write(bench.path("a.vv"), program(5.0)).unwrap();
     bench.until("the question", |b| b.session.text_on_disk().is_some());
+    bench.session.apply(Command::Save);
+    assert_eq!(fs::read_to_string(bench.path("a.vv")).unwrap(), program(5.0));
+    assert!(bench.session.text_on_disk().is_some() && bench.session.document.program.is_modified());
     bench.session.apply(Command::KeepMine);
     bench.shows(3.0);
     assert!(bench.session.document.program.is_modified());
