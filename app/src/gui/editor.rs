@@ -57,6 +57,9 @@ pub struct Editor {
     find: find::Find,
     popup: Option<completion::Popup>,
     handle: Option<tuning::Handle>,
+    /// Where the pointer lay as the text last changed. While it lies there it points at nothing, and what is said about what
+    /// happens to come under it would cover what is typed.
+    typed_over: Option<egui::Pos2>,
     /// What is selected, in bytes; the cursor if nothing is. egui forgets it when the keys go elsewhere.
     selected: Range<usize>,
     /// What to bring in sight, beside what the session says.
@@ -361,9 +364,13 @@ impl Editor {
             page.resting_cursor(ui, self.selected.end);
         }
         let typed = changed && self.buffer.len() > before;
+        let pointer = ui.input(|i| i.pointer.hover_pos());
+        if changed {
+            self.typed_over = pointer;
+        }
         self.completions(ui, session, &page, cursor, typed, commands);
         let over_text = output.response.hovered();
-        if over_text || ui.rect_contains_pointer(gutter) {
+        if (over_text || ui.rect_contains_pointer(gutter)) && pointer != self.typed_over {
             self.tooltips(ui, session, &page, gutter, &own);
         }
         self.tune(ui, &page, over_text, commands);

@@ -207,6 +207,28 @@ fn a_program_is_laid_out_and_one_with_errors_is_not() {
 }
 
 #[test]
+fn what_is_said_under_the_pointer_does_not_cover_what_is_typed() {
+    let mut window = editing("void f(mesh& S) {\n  zork(1);\n}\n");
+    settle(&mut window);
+    let said = |window: &Harness<'static, App>| window.query_all_by_label_contains("zork").count();
+    let elsewhere = said(&window);
+    let editor = window.get_by_label("Program text").rect();
+    let font = egui::FontId::monospace(13.0);
+    let (width, height) = window.ctx.fonts_mut(|f| (f.glyph_width(&font, '0'), f.row_height(&font)));
+    let word = editor.min + egui::vec2(6.0 + 4.0 * width, 6.0 + 1.5 * height);
+    window.hover_at(word);
+    window.run_steps(2);
+    let pointed_at = said(&window);
+    assert!(pointed_at > elsewhere, "the pointer asks what is wrong");
+    type_text(&mut window, "//");
+    settle(&mut window);
+    assert_eq!(said(&window), elsewhere, "the pointer has lain still");
+    window.hover_at(word + egui::vec2(width, 0.0));
+    window.run_steps(2);
+    assert_eq!(said(&window), pointed_at);
+}
+
+#[test]
 fn numbers_are_raised_by_key_and_dragged_at_their_handle() {
     let mut window = editing("void f(mesh& S) {\n  forall v in S v$pos *= 2.5");
     keys(&mut window, Modifiers::ALT, Key::ArrowUp);
