@@ -156,7 +156,7 @@ mod tests {
 
     #[track_caller]
     fn check(text: &str, rule: &str, expected: Option<(&str, Option<usize>, bool)>) {
-        let program = vv::compile("p.vv", text, &mut |_, _| Err(String::new())).program.unwrap();
+        let program = crate::files::compile(std::path::Path::new("p.vv"), text).0.program.unwrap();
         let found = Claim::of(&program, program.rule(rule).unwrap());
         let expected = expected.map(|(by, corners, closed)| Claim { by: by.to_owned(), corners, closed });
         assert_eq!(found, expected, "{text}");
@@ -203,5 +203,16 @@ mod tests {
             Some(("the program", Some(4), false)),
         );
         check("// Of triangle meshes.\nstep { }\n", "step", Some(("the program", Some(3), false)));
+    }
+
+    #[test]
+    fn conway_operators_that_make_a_dual_are_for_closed_meshes() {
+        let text = crate::library::program("conway.vv").unwrap().text;
+        for rule in ["dual", "join", "ortho", "meta", "zip", "needle", "snub"] {
+            check(text, rule, Some((&format!("`{rule}`"), None, true)));
+        }
+        for rule in ["kis", "gyro", "truncate", "ambo", "expand", "bevel"] {
+            check(text, rule, None);
+        }
     }
 }

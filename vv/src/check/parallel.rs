@@ -23,8 +23,8 @@ struct Fault {
     span: Span,
     message: String,
     hint: String,
-    /// Puts the mark of old values there.
-    old: bool,
+    /// Asks for the old value instead.
+    edit: Option<(Span, String)>,
 }
 
 const IN_TURN: &str = "leave `parallel` out: then rounds run in turn";
@@ -139,7 +139,11 @@ impl Rounds<'_, '_> {
     fn note_expression(&mut self, scope: &Scope<'_>, e: &Expr) {
         let first = self.written.is_none();
         match &e.kind {
-            ExprKind::Create if first => self.fail(scope, e.span, "a parallel round makes no vertices", IN_TURN),
+            ExprKind::Create if first => {
+                let hint = "a variable for one that is there begins as `null`, as in `vertex q = null;`; \
+                            for new ones leave `parallel` out: then rounds run in turn";
+                self.fail(scope, e.span, "a parallel round makes no vertices", hint);
+            }
             ExprKind::Builtin(builtin, _) if first && matches!(builtin.code(), Code::Random | Code::RandomBetween) => {
                 let hint = "draw before the loop, into a property, or leave `parallel` out";
                 self.fail(scope, e.span, "random numbers come in an order, and parallel rounds have none", hint);
@@ -210,12 +214,16 @@ impl Rounds<'_, '_> {
         if scope.is_own(vertex) {
             return;
         }
-        let text = self.checker.text(vertex.span);
+        let (text, span) = (self.checker.text(vertex.span), vertex.span);
+        // The mark takes what stands right behind it: of `q$mate$pos` it would make the mate that q had.
+        let one = matches!(vertex.kind, ExprKind::Local(_)) || text.starts_with('(') && text.ends_with(')');
+        let old = if one { text.to_owned() } else { format!("({text})") };
+        let edit = if one { (Span { end: span.start, ..span }, "`".to_owned()) } else { (span, format!("`{old}")) };
         let fault = Fault {
-            span: vertex.span,
+            span,
             message: format!("another round may be changing `{text}${name}`"),
-            hint: format!("ask for what it was: `` `{text}${name} ``, after `synchronize` before the loop"),
-            old: true,
+            hint: format!("ask for what it was: `` `{old}${name} ``, after `synchronize` before the loop"),
+            edit: Some(edit),
         };
         self.report(scope, fault, Some((written, format!("here rounds change `${name}`"))));
     }
@@ -229,6 +237,9 @@ impl Rounds<'_, '_> {
                 Argument::Reference(local) if self.written.is_none() && is_assigned(function, LocalId(i)) => {
                     self.assign(scope, *local, span);
                 }
+                Argument::Reference(local) if scope.own.contains(local) && !is_assigned(function, LocalId(i)) => {
+                    own.push(LocalId(i));
+                }
                 _ => {}
             }
         }
@@ -239,13 +250,13 @@ impl Rounds<'_, '_> {
     }
 
     fn fail(&mut self, scope: &Scope<'_>, span: Span, message: &str, hint: &str) {
-        let fault = Fault { span, message: message.to_owned(), hint: hint.to_owned(), old: false };
+        let fault = Fault { span, message: message.to_owned(), hint: hint.to_owned(), edit: None };
         self.report(scope, fault, None);
     }
 
     /// What a function does is said where the loop calls it.
     fn report(&mut self, scope: &Scope<'_>, fault: Fault, label: Option<(Span, String)>) {
-        let Fault { span, message, hint, old } = fault;
+        let Fault { span, message, hint, edit } = fault;
         let mut d = Diagnostic::error(scope.called.unwrap_or(span), message);
         if scope.called.is_some() {
             d = d.label(span, "by this");
@@ -253,8 +264,10 @@ impl Rounds<'_, '_> {
         if let Some((span, text)) = label {
             d = d.label(span, text);
         }
-        let start = Span { end: span.start, ..span };
-        self.fault.get_or_insert(if old { d.fix(hint, start, "`") } else { d.hint(hint) });
+        self.fault.get_or_insert(match edit {
+            Some((place, text)) => d.fix(hint, place, text),
+            None => d.hint(hint),
+        });
     }
 }
 

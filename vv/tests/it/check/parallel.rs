@@ -111,10 +111,18 @@ static void mark_next(vertex v) { v = any in v; v$u = 1; }
 static double around(vertex v) { double sum = 0; forall q in v sum += q$u; return sum; }
 static void count(int& n) { n += 1; }
 static void deep(vertex v) { mark(v); }
+static void put(vertex& v, double u) { v$u = u; }
+static void lead(vertex& v, vertex& w) { w = any in w; v$u = 1; }
+static void lead_on(vertex v) { lead(v, v); }
 static int many(vertex v, int k) { if (k > 0) return many(v, k - 1); print v; return 1; }
 void step(mesh& S) {
   int n;
-  parallel forall p in S { mark(p); deep(p); }
+  parallel forall p in S { mark(p); deep(p); put(p, 2); }
+  parallel forall p in S { vertex q = null; lead(p, q); }
+  parallel forall p in S { lead(p, p); }
+//                         ^^^^^^^^^^ error: `p` is the vertex of the parallel round, and stays so
+  parallel forall p in S { lead_on(p); }
+//                         ^^^^^^^^^^ error: a parallel round changes values of its own vertex, `p`, and of no other
   parallel forall p in S { mark(any in p); }
 //                         ^^^^^^^^^^^^^^ error: a parallel round changes values of its own vertex, `p`, and of no other
   parallel forall p in S { mark_next(p); }
@@ -155,6 +163,29 @@ fn the_mark_of_old_values_is_offered() {
         c.diagnostics[0].hints[0].message,
         "ask for what it was: `` `q$pos ``, after `synchronize` before the loop"
     );
+}
+
+#[test]
+fn the_mark_of_old_values_is_put_before_what_it_is_to_mark() {
+    #[track_caller]
+    fn check(value: &str, expected: &str) {
+        let text = |value: &str| {
+            format!(
+                "vertex {{ vertex mate = null; }};\nvertex of(vertex v) {{ return v; }}\n\
+                 void step(mesh& S) {{ synchronize S; parallel forall p in S p$pos = {value}; }}"
+            )
+        };
+        let c = compiled(&text(value));
+        let (span, replacement) = c.diagnostics[0].hints[0].edit.clone().unwrap();
+        let mut mended = text(value);
+        mended.replace_range(span.start as usize..span.end as usize, &replacement);
+        assert_eq!(mended, text(expected));
+        assert_eq!(compiled(&mended).diagnostics.len(), 0, "{mended}");
+    }
+    check("(any in p)$pos", "`(any in p)$pos");
+    check("p$mate$pos", "`(p$mate)$pos");
+    check("`p$mate$pos", "`(`p$mate)$pos");
+    check("of(p)$pos", "`(of(p))$pos");
 }
 
 #[test]

@@ -36,6 +36,7 @@ const CLAIMS: &[(&str, Option<&str>, Class)] = &[
     ("conway.vv", Some("truncate"), Class::Polygons),
     ("conway.vv", Some("ambo"), Class::Polygons),
     ("conway.vv", Some("expand"), Class::Polygons),
+    ("conway.vv", Some("bevel"), Class::Polygons),
     ("colors.vv", None, Class::Polygons),
     ("conway.vv", None, Class::ClosedPolygons),
     ("coral.vv", Some("grow"), Class::ClosedTriangles),
