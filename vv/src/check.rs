@@ -7,6 +7,7 @@
 //!   operator   what operators take and conversions give
 //!   constant   values of file scope
 //!   effects    what calls what, and who may read old values
+//!   leaving    what leaves a loop or the function
 //!   parallel   rounds that would depend on one another
 //!   suggest    names that may have been meant
 //! ```
@@ -19,6 +20,7 @@ mod constant;
 mod declare;
 mod effects;
 mod expression;
+mod leaving;
 mod operator;
 mod parallel;
 mod place;

@@ -9,7 +9,7 @@ use crate::ir::{Argument, Expr, ExprKind, Function, FunctionId, LocalId, Place, 
 use crate::source::Span;
 
 use super::Checker;
-use super::statement::leaving;
+use super::leaving::leaving;
 
 /// What a round may assign: the position, or a property.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -8,6 +8,7 @@ use crate::syntax::tree::{self, ExprKind as Tree, StmtKind as TreeStmt};
 
 use super::body::{NewLocal, Role};
 use super::expression::has_effect;
+use super::leaving::{leaves_loop, leaving};
 use super::operator::{a, type_of};
 use super::place::{Domain, bare};
 use super::{Checker, with_stack};
@@ -428,7 +429,8 @@ impl<'a> Checker<'a> {
         // What is faulty may have been the change, and one reference may be the same variable as another.
         let faulty = self.diagnostics.iter().any(|d| d.severity == Severity::Error);
         let shared = asked.iter().any(|&(id, _)| self.is_reference(id));
-        let Some(condition) = condition.filter(|_| !(asked.is_empty() || changed || faulty || shared || leaves(body)))
+        let Some(condition) =
+            condition.filter(|_| !(asked.is_empty() || changed || faulty || shared || leaving(body).is_some()))
         else {
             return;
         };
@@ -560,69 +562,4 @@ enum Walked {
     Set(Expr),
     Faces(Expr),
     Ring(Ring),
-}
-
-/// The first statement that leaves the loop around it, or the function.
-pub(super) fn leaving(body: &[Stmt]) -> Option<&Stmt> {
-    with_stack(|| {
-        body.iter().find_map(|s| match &s.kind {
-            StmtKind::Break | StmtKind::Return(_) => Some(s),
-            StmtKind::Block(inner) => leaving(inner),
-            StmtKind::If { then, otherwise, .. } => leaving(then).or_else(|| leaving(otherwise)),
-            StmtKind::Loop { body, .. }
-            | StmtKind::ForallSet { body, .. }
-            | StmtKind::ForallRing { body, .. }
-            | StmtKind::ForallFaces { body, .. } => returning(body),
-            _ => None,
-        })
-    })
-}
-
-/// What a loop's body does to the loop.
-#[derive(Default)]
-struct Leaves {
-    breaks: bool,
-    continues: bool,
-}
-
-fn leaves_loop(body: &[Stmt]) -> Leaves {
-    let mut leaves = Leaves::default();
-    let mut open: Vec<&[Stmt]> = vec![body];
-    while let Some(statements) = open.pop() {
-        for s in statements {
-            match &s.kind {
-                StmtKind::Break => leaves.breaks = true,
-                StmtKind::Continue => leaves.continues = true,
-                StmtKind::Block(inner) => open.push(inner),
-                StmtKind::If { then, otherwise, .. } => open.extend([&then[..], &otherwise[..]]),
-                _ => {}
-            }
-        }
-    }
-    leaves
-}
-
-/// Whether statements can leave the loop around them, or the function.
-fn leaves(body: &[Stmt]) -> bool {
-    leaves_loop(body).breaks || returns(body)
-}
-
-fn returns(body: &[Stmt]) -> bool {
-    returning(body).is_some()
-}
-
-/// The first `return`.
-fn returning(body: &[Stmt]) -> Option<&Stmt> {
-    with_stack(|| {
-        body.iter().find_map(|s| match &s.kind {
-            StmtKind::Return(_) => Some(s),
-            StmtKind::Block(body)
-            | StmtKind::Loop { body, .. }
-            | StmtKind::ForallSet { body, .. }
-            | StmtKind::ForallRing { body, .. }
-            | StmtKind::ForallFaces { body, .. } => returning(body),
-            StmtKind::If { then, otherwise, .. } => returning(then).or_else(|| returning(otherwise)),
-            _ => None,
-        })
-    })
 }
