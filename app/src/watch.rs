@@ -344,55 +344,6 @@ mod tests {
         assert!(!new.look(&path, false));
     }
 
-    #[track_caller]
-    fn wait_for_change(watch: &Watch, mut meanwhile: impl FnMut()) -> PathBuf {
-        let began = Instant::now();
-        loop {
-            if let Some(path) = watch.change() {
-                return path;
-            }
-            assert!(began.elapsed() < Duration::from_secs(30), "waited in vain");
-            meanwhile();
-            std::thread::sleep(Duration::from_millis(2));
-        }
-    }
-
-    /// As a log beside the program: it never rests.
-    #[test]
-    fn a_change_is_told_of_while_other_files_of_the_folder_never_rest() {
-        let folder = tempfile::tempdir().unwrap();
-        let [path, log] = ["a", "log"].map(|name| folder.path().join(name));
-        std::fs::write(&path, "one").unwrap();
-        let mut watch = Watch::start(|| ()).unwrap();
-        watch.set_files([path.clone()]);
-        let mut lines = 0;
-        let mut write = || {
-            lines += 1;
-            std::fs::write(&log, format!("{lines}")).unwrap();
-        };
-        for _ in 0..20 {
-            write();
-            std::thread::sleep(Duration::from_millis(2));
-        }
-        std::fs::write(&path, "two").unwrap();
-        assert_eq!(wait_for_change(&watch, write), path);
-    }
-
-    #[test]
-    fn a_file_that_is_written_without_rest_is_looked_at_all_the_same() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a");
-        std::fs::write(&path, "0").unwrap();
-        let mut watch = Watch::start(|| ()).unwrap();
-        watch.set_files([path.clone()]);
-        let mut n = 0;
-        let write = || {
-            n += 1;
-            std::fs::write(&path, format!("{n}")).unwrap();
-        };
-        assert_eq!(wait_for_change(&watch, write), path);
-    }
-
     #[test]
     fn files_that_nobody_named_are_not_read() {
         let mut waiting = Waiting::new();
